@@ -24,15 +24,15 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
-using Volts = std::array<double, 4>;
-using Change = std::function<void(std::size_t row, Volts*)>;
+using FourVolts = std::array<double, 4>;
+using Change = std::function<void(std::size_t row, FourVolts*)>;
 
 FrameTable Changed(FrameTable log, const Change& change) {
   for (std::size_t i = 0; i < log.rows(); ++i) {
     const auto cell = [&](int j) -> double& {
       return log.MutableNumbers("gauge_" + std::to_string(j + 1) + "_V")[i];
     };
-    Volts volts;
+    FourVolts volts;
     for (int j = 0; j < 4; ++j) volts[j] = cell(j);
     change(i, &volts);
     for (int j = 0; j < 4; ++j) cell(j) = volts[j];
@@ -74,29 +74,31 @@ TEST(CausesTest, FaultsOfGaugesAreNamedBeforeAnyEffect) {
     Change change;
     const char* words;
   } kCases[] = {
-      {[](std::size_t row, Volts* v) {
+      {[](std::size_t row, FourVolts* v) {
          if (row >= 150) (*v)[1] = -0.02;
        },
        "gauge 2 is stuck at -0.02 V from row 151 to 210"},
-      {[](std::size_t row, Volts* v) {
+      {[](std::size_t row, FourVolts* v) {
          if (row >= 60 && row < 90) (*v)[2] = 0.05;
        },
        "gauge 3 is stuck at 0.05 V from row 61 to 90"},
-      {[&](std::size_t, Volts* v) { (*v)[1] = offset_V + noise(generator); },
+      {[&](std::size_t, FourVolts* v) {
+         (*v)[1] = offset_V + noise(generator);
+       },
        "gauge 2 is dead"},
-      {[](std::size_t, Volts* v) { (*v)[3] = std::min((*v)[3], 0.0); },
+      {[](std::size_t, FourVolts* v) { (*v)[3] = std::min((*v)[3], 0.0); },
        "gauge 4 is clipped"},
-      {[](std::size_t, Volts* v) { (*v)[0] = std::max((*v)[0], 0.02); },
+      {[](std::size_t, FourVolts* v) { (*v)[0] = std::max((*v)[0], 0.02); },
        "gauge 1 is clipped"},
-      {[](std::size_t, Volts* v) { std::swap((*v)[0], (*v)[2]); },
+      {[](std::size_t, FourVolts* v) { std::swap((*v)[0], (*v)[2]); },
        "gauges seem to be swapped"},
-      {[](std::size_t, Volts* v) { (*v)[1] = -(*v)[1]; },
+      {[](std::size_t, FourVolts* v) { (*v)[1] = -(*v)[1]; },
        "gauge_2_V falls where"},
-      {[](std::size_t row, Volts* v) {
+      {[](std::size_t row, FourVolts* v) {
          if (row >= 100) (*v)[1] /= 2;
        },
        "gauge_2_V responds 0.5 times"},
-      {[](std::size_t, Volts* v) {
+      {[](std::size_t, FourVolts* v) {
          (*v)[2] = std::round((*v)[2] / 0.006) * 0.006;
        },
        "likeliest cause: gauge 3 has steps of 6 mV"},

@@ -46,21 +46,21 @@ std::string RefusalAfter(
   return "";
 }
 
-FrameTable Touches() {
+FrameTable CleanTouches() {
   return MakeLog(HiddenFinger(), StandardFrames(HiddenFinger(), 31),
                  {0.02, 0.05, 31});
 }
 
 TEST(GaugeChangesTest, TakesLogsWithoutAny) {
   const auto nothing = [](std::size_t, std::array<double, 4>*) {};
-  EXPECT_THAT(RefusalAfter(Touches(), nothing), IsEmpty());
+  EXPECT_THAT(RefusalAfter(CleanTouches(), nothing), IsEmpty());
   EXPECT_THAT(
       RefusalAfter(MakeLog(HiddenFinger(), RecordedFrames(HiddenFinger(), 5),
                            {0.02, 0.05, 5}),
                    nothing),
       IsEmpty());
   // Coarse steps all the time, and a drift.
-  EXPECT_THAT(RefusalAfter(Touches(),
+  EXPECT_THAT(RefusalAfter(CleanTouches(),
                            [](std::size_t row, std::array<double, 4>* volts) {
                              (*volts)[1] += 1e-4 * static_cast<double>(row);
                              (*volts)[2] =
@@ -72,7 +72,7 @@ TEST(GaugeChangesTest, TakesLogsWithoutAny) {
 TEST(GaugeChangesTest, NamesTheRowOfAJump) {
   for (const double jump_V : {3.75, -0.6}) {
     EXPECT_THAT(
-        RefusalAfter(Touches(),
+        RefusalAfter(CleanTouches(),
                      [&](std::size_t row, std::array<double, 4>* volts) {
                        for (double& v : *volts) v += row >= 100 ? jump_V : 0;
                      }),
@@ -82,7 +82,7 @@ TEST(GaugeChangesTest, NamesTheRowOfAJump) {
 }
 
 TEST(GaugeChangesTest, NamesTheRowOfAnotherGain) {
-  EXPECT_THAT(RefusalAfter(Touches(),
+  EXPECT_THAT(RefusalAfter(CleanTouches(),
                            [](std::size_t row, std::array<double, 4>* volts) {
                              if (row >= 100) (*volts)[1] /= 2;
                            }),
@@ -91,7 +91,7 @@ TEST(GaugeChangesTest, NamesTheRowOfAnotherGain) {
 }
 
 TEST(GaugeChangesTest, NamesTheRowOfExchangedChannels) {
-  EXPECT_THAT(RefusalAfter(Touches(),
+  EXPECT_THAT(RefusalAfter(CleanTouches(),
                            [](std::size_t row, std::array<double, 4>* volts) {
                              if (row >= 120)
                                std::swap((*volts)[0], (*volts)[2]);
@@ -105,13 +105,13 @@ TEST(GaugeChangesTest, NamesTheRowOfCoarserSteps) {
     if (first) (*volts)[3] = 0.005 * std::round((*volts)[3] / 0.005);
   };
   EXPECT_THAT(
-      RefusalAfter(Touches(),
+      RefusalAfter(CleanTouches(),
                    [&](std::size_t row, std::array<double, 4>* volts) {
                      coarse(row >= 130, volts);
                    }),
       AllOf(HasSubstr("gauge_4_V has steps of 0.005 V from log.csv row 13"),
             HasSubstr("finer ones before")));
-  EXPECT_THAT(RefusalAfter(Touches(),
+  EXPECT_THAT(RefusalAfter(CleanTouches(),
                            [&](std::size_t row, std::array<double, 4>* volts) {
                              coarse(row < 80, volts);
                            }),

@@ -106,7 +106,7 @@ TEST(PlausibilityTest, RefusesGaugesInOtherUnits) {
 
 TEST(PlausibilityTest, RefusesDeadGauges) {
   EXPECT_THAT(RefusalOf({"gauge_3_V"}, [](double) { return 0.1; }),
-              HasSubstr("gauge_3_V does not respond"));
+              HasSubstr("gauge 3 is stuck at 0.1 V from row 1 to 210"));
   int i = 0;
   EXPECT_THAT(
       RefusalOf({"gauge_2_V"}, [&](double) { return 1e-3 * (++i % 7); }),

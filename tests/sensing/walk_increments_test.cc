@@ -10,10 +10,11 @@ namespace {
 using Verdict = WalkIncrements::Verdict;
 
 // Increments of four gauges over 32 steps of 10 s and their sums, of a walk of
-// `scale` times 1 mV in the square root of a second and a drift. Readings leave
-// a variance `open` of the expected one, alike.
+// `scale` times 1 mV in the square root of a second and a drift, as a filter of
+// readings that leave a share `open` of the expected variance finds them.
 WalkIncrements Of(double scale, double drift_V_per_s, double open = 0) {
   constexpr int kSteps = 32, kGauges = 4;
+  const double told = 1 - open;
   std::mt19937_64 generator(1);
   std::normal_distribution<double> normal(0, 1);
   WalkIncrements walk;
@@ -23,7 +24,8 @@ WalkIncrements Of(double scale, double drift_V_per_s, double open = 0) {
     Eigen::VectorXd& step = steps.emplace_back(kGauges);
     for (double& moved : step) {
       moved = 10 * drift_V_per_s +
-              scale * 1e-3 * std::sqrt(10 * (1 - open)) * normal(generator);
+              1e-3 * std::sqrt(10 * told * (told * scale * scale + open)) *
+                  normal(generator);
     }
   }
   std::size_t lag = 0;

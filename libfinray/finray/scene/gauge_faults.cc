@@ -29,11 +29,13 @@ void GaugeFaultFinder::Range::Add(double volts) {
   if (!std::isfinite(volts)) return;
   low = std::min(low, volts);
   high = std::max(high, volts);
+  ++readings;
 }
 
 void GaugeFaultFinder::Range::Add(const Range& other) {
   low = std::min(low, other.low);
   high = std::max(high, other.high);
+  readings += other.readings;
 }
 
 GaugeFaultFinder::GaugeFaultFinder(const Finger& finger)
@@ -59,6 +61,25 @@ void GaugeFaultFinder::AddTo(std::size_t row,
   }
 }
 
+void GaugeFaultFinder::AddToExtreme(double sign, double volts, std::size_t row,
+                                    const std::vector<double>& readings_V,
+                                    Extreme* extreme) const {
+  Same& at = extreme->at;
+  if (at.rows == 0 || sign * volts > sign * at.volts) {
+    extreme->next_V = at.volts;
+    extreme->next_rows = at.rows;
+    Begin(volts, row, &at);
+  }
+  if (volts == at.volts) {
+    AddTo(row, readings_V, &at);
+  } else if (extreme->next_rows == 0 || sign * volts > sign * extreme->next_V) {
+    extreme->next_V = volts;
+    extreme->next_rows = 1;
+  } else if (volts == extreme->next_V) {
+    ++extreme->next_rows;
+  }
+}
+
 void GaugeFaultFinder::Add(std::size_t row,
                            const std::vector<double>& readings_V) {
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
@@ -77,16 +98,8 @@ void GaugeFaultFinder::Add(std::size_t row,
         told(series.run) > told(series.longest)) {
       series.longest = series.run;
     }
-    if (series.least.rows == 0 || volts < series.least.volts) {
-      Begin(volts, row, &series.least);
-    }
-    if (volts == series.least.volts) AddTo(row, readings_V, &series.least);
-    if (series.greatest.rows == 0 || volts > series.greatest.volts) {
-      Begin(volts, row, &series.greatest);
-    }
-    if (volts == series.greatest.volts) {
-      AddTo(row, readings_V, &series.greatest);
-    }
+    AddToExtreme(-1, volts, row, readings_V, &series.least);
+    AddToExtreme(1, volts, row, readings_V, &series.greatest);
     if (series.some_V.size() < kMostForStep) series.some_V.push_back(volts);
     all_[j].Add(volts);
   }
@@ -151,8 +164,11 @@ std::optional<GaugeFault> GaugeFaultFinder::Still(int gauge,
 }
 
 std::optional<GaugeFault> GaugeFaultFinder::StillInBlocks(int gauge) const {
-  const auto still = [&](const std::vector<Range>& all) {
-    if (all[gauge].width() > kNoiseRange * noise_V_[gauge]) return false;
+  const auto still = [&](const std::vector<Range>& all, std::size_t rows) {
+    if (all[gauge].width() > kNoiseRange * noise_V_[gauge] ||
+        2 * all[gauge].readings < rows) {
+      return false;
+    }
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (static_cast<int>(k) == gauge) continue;
       if (all[k].width() < 0.5 * all_[k].width() ||
@@ -163,7 +179,7 @@ std::optional<GaugeFault> GaugeFaultFinder::StillInBlocks(int gauge) const {
     return all.size() > 1;
   };
   if (rows_ < static_cast<std::size_t>(kStillRows)) return {};
-  if (still(all_)) {
+  if (still(all_, rows_)) {
     return GaugeFault{
         GaugeFault::Kind::kStill, gauge, 0,
         GaugeWords(gauge) + " is dead: it does not move while the others do"};
@@ -173,13 +189,15 @@ std::optional<GaugeFault> GaugeFaultFinder::StillInBlocks(int gauge) const {
   std::size_t first = 0, count = 0;
   for (const bool from_end : {false, true}) {
     std::vector<Range> all(all_.size());
+    std::size_t rows = 0;
     for (std::size_t n = 1; n < blocks_.size(); ++n) {
       const std::size_t b = from_end ? blocks_.size() - n : n - 1;
+      rows += blocks_[b].rows;
       for (std::size_t j = 0; j < all.size(); ++j) {
         all[j].Add(blocks_[b].all[j]);
       }
       if (all[gauge].width() > kNoiseRange * noise_V_[gauge]) break;
-      if (n > count && still(all)) {
+      if (n > count && still(all, rows)) {
         first = from_end ? b : 0;
         count = n;
       }
@@ -204,8 +222,11 @@ std::optional<GaugeFault> GaugeFaultFinder::Clipped(int gauge,
     return {};
   }
   const Series& series = gauges_[gauge];
-  for (const Same* same : {&series.greatest, &series.least}) {
+  for (const Extreme* extreme : {&series.greatest, &series.least}) {
+    const Same* same = &extreme->at;
     if (same->rows < kClippedRows ||
+        static_cast<double>(same->rows) <=
+            kPiledUp * static_cast<double>(extreme->next_rows) ||
         MovedBy(same->all, gauge, step_V) < kMoves) {
       continue;
     }
@@ -213,7 +234,7 @@ std::optional<GaugeFault> GaugeFaultFinder::Clipped(int gauge,
         GaugeFault::Kind::kClipped, gauge, 0,
         GaugeWords(gauge) + " is clipped: " + std::to_string(same->rows) +
             FormatText(" readings are exactly %.6g V, its %s, ", same->volts,
-                       same == &series.least ? "least" : "greatest") +
+                       extreme == &series.least ? "least" : "greatest") +
             RowsInWords(same->first, same->last) + ", while the others move"};
   }
   return {};

@@ -31,18 +31,21 @@ struct GaugeFault {
 /// A gauge j stands still in kStillRows or more rows one after another whose
 /// readings are the same number, or, over all rows or kStillBlocks or more of
 /// kMostBlocks blocks of rows at the begin or the end of the log, scatter no
-/// more than noise: their range is below kNoiseRange noise_V. It is clipped if
-/// kClippedRows or more rows share its greatest or its least reading. Both
-/// count only if the others move in these rows: one of them by more than kMoves
-/// times the greater of its own noise_V and the step of j, over blocks all of
-/// them by half of what they move in the log. It is coarse if all of its
-/// readings are multiples of a step above kCoarseStep noise_V (StepOf). Rows
-/// that repeat all gauges are no fault.
+/// more than noise: their range is below kNoiseRange noise_V, and half of them
+/// have a reading. It is clipped if kClippedRows or more rows share its
+/// greatest or its least reading, and more than kPiledUp times as many as share
+/// the next one, which a converter's steps alone do not make. Both count only
+/// if the others move in these rows: one of them by more than kMoves times the
+/// greater of its own noise_V and the step of j, over blocks all of them by
+/// half of what they move in the log. It is coarse if all of its readings are
+/// multiples of a step above kCoarseStep noise_V (StepOf). Rows that repeat all
+/// gauges are no fault.
 class GaugeFaultFinder {
  public:
   static constexpr int kStillRows = 20, kClippedRows = 5, kStillBlocks = 4;
   static constexpr std::size_t kMostBlocks = 64;
-  static constexpr double kMoves = 30, kNoiseRange = 9, kCoarseStep = 2;
+  static constexpr double kMoves = 30, kNoiseRange = 9, kCoarseStep = 2,
+                          kPiledUp = 3;
 
   explicit GaugeFaultFinder(const Finger& finger);
   /// Takes the next row, which counts from 1; NaN where nothing was read.
@@ -52,6 +55,7 @@ class GaugeFaultFinder {
  private:
   struct Range {
     double low, high;
+    std::size_t readings = 0;
     Range();
     void Add(double volts);
     void Add(const Range& other);
@@ -67,14 +71,25 @@ class GaugeFaultFinder {
     std::size_t rows = 0, first = 0, last = 0;
     std::vector<Range> all;
   };
+  // The least or the greatest reading, and the next one.
+  struct Extreme {
+    Same at;
+    double next_V = 0;
+    std::size_t next_rows = 0;
+  };
   struct Series {
-    Same run, longest, least, greatest;
+    Same run, longest;
+    Extreme least, greatest;
     std::vector<double> some_V;  // readings for StepOf
   };
 
   static void Begin(double volts, std::size_t row, Same* same);
   void AddTo(std::size_t row, const std::vector<double>& readings_V,
              Same* same) const;
+  // `sign` is -1 for the least one.
+  void AddToExtreme(double sign, double volts, std::size_t row,
+                    const std::vector<double>& readings_V,
+                    Extreme* extreme) const;
   double MovedBy(const std::vector<Range>& all, int gauge, double step_V) const;
   std::optional<double> StepOfGauge(int gauge) const;
   std::optional<GaugeFault> Still(int gauge, double step_V) const;

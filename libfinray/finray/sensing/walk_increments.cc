@@ -28,8 +28,11 @@ void WalkIncrements::Add(std::size_t lag, const Eigen::VectorXd& moved,
     const double share = directions.eigenvalues()[i];
     if (!(share > kTold)) continue;
     const double along = directions.eigenvectors().col(i).dot(moved);
-    chi2[lag] += along * along / (told * share);
+    const double square = along * along / (told * share);
+    chi2[lag] += square;
     ++dof[lag];
+    weights[lag] += share * share;
+    weighted[lag] += share * (square - 1 + share);
   }
   if (lag + 1 < kLags) return;
   moved_V.resize(static_cast<std::size_t>(gauges));
@@ -42,6 +45,8 @@ void WalkIncrements::Add(const WalkIncrements& other) {
   for (std::size_t lag = 0; lag < kLags; ++lag) {
     chi2[lag] += other.chi2[lag];
     dof[lag] += other.dof[lag];
+    weights[lag] += other.weights[lag];
+    weighted[lag] += other.weighted[lag];
   }
   moved_V.resize(std::max(moved_V.size(), other.moved_V.size()));
   for (std::size_t j = 0; j < other.moved_V.size(); ++j) {
@@ -77,12 +82,11 @@ WalkIncrements::Verdict WalkIncrements::Judge() const {
 }
 
 double WalkIncrements::FittingWalk() const {
-  // What the readings leave open counts least at long lags.
-  double scale = ShortLag().value_or(1);
-  for (std::size_t lag = 0; lag < kLags; ++lag) {
-    if (dof[lag] >= 2 * kFewest) scale = chi2[lag] / dof[lag];
-  }
-  return told_V_per_sqrt_s * std::sqrt(scale);
+  const auto best = static_cast<std::size_t>(
+      std::max_element(weights.begin(), weights.end()) - weights.begin());
+  if (weights[best] == 0) return told_V_per_sqrt_s;
+  return told_V_per_sqrt_s * std::sqrt(std::max(weighted[best] / weights[best],
+                                                kLeastShare * kLeastShare));
 }
 
 }  // namespace finray

@@ -21,7 +21,9 @@ namespace finray {
 /// eigenvalue e above kTold adds (u'd)^2 / (q^2 L e) to a chi2 and a degree of
 /// freedom. Sums are kept for lags from 1 / 2^(kLags - 1) of a window to all of
 /// it, because
-///  - a walk of s q has chi2 / dof = s^2 at every lag;
+///  - a walk of s q has E chi2 / dof = e s^2 + 1 - e: what the readings tell
+///  has
+///    their noise too;
 ///  - a steady drift adds a part that grows with the lag: its increments all
 ///    go one way, so they are correlated.
 /// Sums of windows and of logs add up.
@@ -31,6 +33,8 @@ struct WalkIncrements {
 
   double told_V_per_sqrt_s = 0;
   std::array<double, kLags> chi2{}, dof{};  ///< the shortest lag first
+  /// Sums of e^2, and of e (chi2 - 1 + e), so that their ratio is about s^2.
+  std::array<double, kLags> weights{}, weighted{};
   /// By gauge, over windows, and the time of these.
   std::vector<double> moved_V;
   double moved_s = 0;
@@ -50,8 +54,10 @@ struct WalkIncrements {
     const Verdict verdict = Judge();
     return verdict == Verdict::kFits || verdict == Verdict::kTooLarge;
   }
-  /// About what the walk is, in V in the square root of a second.
+  /// About what the walk is, in V in the square root of a second, and at least
+  /// kLeastShare of what is told.
   double FittingWalk() const;
+  static constexpr double kLeastShare = 0.05;
 
  private:
   // chi2 / dof of the shortest lag that tells enough.

@@ -236,8 +236,8 @@ std::size_t OnSteps(Iterator first, Iterator end, double step) {
   return static_cast<std::size_t>(at - first);
 }
 
-void RefuseCoarserSteps(const Series& series, const std::string& log, int gauge,
-                        double noise_V) {
+void RefuseCoarserStepsOf(const Series& series, const std::string& log,
+                          int gauge, double noise_V) {
   constexpr std::size_t kLooked = 20;
   if (series.size() < 2 * kLooked) return;
   const auto looked = static_cast<std::ptrdiff_t>(kLooked);
@@ -263,8 +263,7 @@ void RefuseCoarserSteps(const Series& series, const std::string& log, int gauge,
 
 }  // namespace
 
-void RefuseGaugeChanges(const std::vector<ExpectedGauges>& frames,
-                        const CalibrationLogs& logs, const Finger& finger) {
+void RefuseCoarserSteps(const CalibrationLogs& logs, const Finger& finger) {
   const auto gauges = static_cast<int>(finger.gauges.size());
   for (int j = 0; j < gauges; ++j) {
     std::map<int, Series> readings;
@@ -273,9 +272,14 @@ void RefuseGaugeChanges(const std::vector<ExpectedGauges>& frames,
       readings[frame.log].emplace_back(frame.row, frame.gauges_V[j]);
     }
     for (const auto& [log, series] : readings) {
-      RefuseCoarserSteps(series, logs.names[log], j, finger.gauges[j].noise_V);
+      RefuseCoarserStepsOf(series, logs.names[log], j,
+                           finger.gauges[j].noise_V);
     }
   }
+}
+
+void RefuseGaugeChanges(const std::vector<ExpectedGauges>& frames,
+                        const CalibrationLogs& logs, const Finger& finger) {
   std::map<int, Frames> by_log;
   for (const ExpectedGauges& frame : frames)
     by_log[frame.log].push_back(&frame);

@@ -24,16 +24,19 @@ namespace finray {
 ///    other one's after, S of their own angles is kExchangeShare^2 times that,
 ///    and each fits with less than kLeftOver of its variance left;
 ///  - a gain changes: S of one line is kGainShare^2 times that of both, which
-///    fit as well, and the slopes differ by a factor of kGainChange or more;
-///  - a converter has coarser steps before or after: all differences of
-///    readings are multiples of a step of more than kCoarse noise_V there, and
-///    not elsewhere.
+///    fit as well, and the slopes differ by a factor of kGainChange or more.
 /// Says nothing of fewer than kLeastFrames frames on one side, or where these
 /// hardly bend a gauge.
 void RefuseGaugeChanges(const std::vector<ExpectedGauges>& frames,
                         const CalibrationLogs& logs, const Finger& finger);
 constexpr double kJumpShare = 5, kExchangeShare = 3, kGainShare = 2,
-                 kGainChange = 1.5, kLeftOver = 0.1, kCoarse = 3;
+                 kGainChange = 1.5, kLeftOver = 0.1;
+
+/// Throws InputError with the row from which on, or before which, the converter
+/// of a gauge has coarser steps: all differences of readings are multiples of a
+/// step of more than kCoarse noise_V there, and not elsewhere.
+void RefuseCoarserSteps(const CalibrationLogs& logs, const Finger& finger);
+constexpr double kCoarse = 3;
 
 /// The faults of gauges by log, without the rows of a bench. Logs without any
 /// are left out.

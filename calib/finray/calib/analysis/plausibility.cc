@@ -377,6 +377,8 @@ void RefuseImplausible(CalibrationProblem* problem) {
   }
   RefuseImplausibleMotion(Presses(frames), problem->finger(), plan);
   RefuseImpossibleBends(frames, problem->finger());
+  // A coarse gauge looks clipped.
+  RefuseCoarserSteps(problem->logs(), problem->finger());
   RefuseFaultyGauges(*problem);
   ContactGuess guess(problem);
   RefuseImplausibleObjects(frames, *problem, &guess);
