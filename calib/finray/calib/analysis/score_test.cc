@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "finray/calib/analysis/residual_correlation.h"
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/io/number_text.h"
 #include "finray/sensing/chi_squared.h"
@@ -47,6 +48,8 @@ struct Column {
   int first, end;
   double unit;
   std::string name;
+  // Neighbouring rows that tell as much as one (IntegratedTime).
+  double tau = 1;
 };
 
 // Columns that are tested together: a family or one of it.
@@ -162,10 +165,39 @@ class ScoreRanking {
         if (!told(first, s) || !told(s, end)) continue;
         columns_.push_back({k, s, end, unit,
                             name + "[" + LogName(log) + " from row " +
-                                std::to_string(FirstRow(s)) + "]"});
+                                std::to_string(FirstRow(s)) + "]",
+                            RowsAlike(k, first, s, end)});
       }
     }
   }
+  // Where residuals go up and down slowly, any stretch of rows is off by more
+  // than white noise makes. Returns tau of the pulls of a parameter about their
+  // means before and from stretch `from` on, or 1 if these pulls are white.
+  double RowsAlike(Eigen::Index k, int first, int from, int end) const {
+    std::vector<std::pair<int, double>> pulls;  // by frame
+    for (const Linearization& fold : wide_.folds) {
+      for (std::size_t i = 0; i < fold.frames.size(); ++i) {
+        const int stretch = wide_.stretch_of[fold.frames[i]];
+        if (stretch < first || stretch >= end) continue;
+        pulls.emplace_back(fold.frames[i],
+                           fold.pulls(k, static_cast<Eigen::Index>(i)));
+      }
+    }
+    std::sort(pulls.begin(), pulls.end());
+    std::vector<std::vector<double>> parts(2);
+    for (const auto& [frame, pull] : pulls) {
+      parts[wide_.stretch_of[frame] >= from ? 1 : 0].push_back(pull);
+    }
+    for (std::vector<double>& part : parts) {
+      double mean = 0;
+      for (const double pull : part) mean += pull;
+      mean /= std::max<double>(1, static_cast<double>(part.size()));
+      for (double& pull : part) pull -= mean;
+    }
+    const IntegratedTime time = IntegrateTime(parts);
+    return time.p_value < ResidualCorrelation::kSignificant ? time.tau : 1;
+  }
+
   // As users count.
   int FirstRow(int stretch) const {
     return wide_.stretches[stretch].first_row + 1;
@@ -424,7 +456,11 @@ class ScoreRanking {
     effect.rows = test.rows;
     effect.drop = std::max(0.0, -s.dot(e));
     const double rest = chi2_ - dropped - effect.drop;
-    const double scale2 = dof_ > 0 ? std::max(1.0, rest / dof_) : 1.0;
+    double tau = 1;
+    for (const int column : columns) {
+      tau = std::max(tau, columns_[column].tau);
+    }
+    const double scale2 = tau * (dof_ > 0 ? std::max(1.0, rest / dof_) : 1.0);
     const Eigen::MatrixXd l = factor.matrixL();
     effect.evidence =
         effect.drop / scale2 - 2 * l.diagonal().array().log().sum();
