@@ -30,11 +30,14 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 9);
   EXPECT_THAT(outcome.output,
               HasSubstr("\nwarning: the finger is not calibrated"));
-  EXPECT_THAT(outcome.output,
-              HasSubstr("\nwarning: likeliest cause: the finger is not "
-                        "calibrated; 300 of 300 solved frames of " +
-                        folder_.Path("runs/a.csv") +
-                        " (the worst of 2 logs) are not explained"));
+  EXPECT_THAT(
+      outcome.output,
+      HasSubstr("\nwarning: likeliest cause: gauge 3 is stuck at 0.01 V "
+                "from row 1 to 300 while the others move, "));
+  EXPECT_THAT(
+      outcome.output,
+      HasSubstr("300 of 300 solved frames of " + folder_.Path("runs/a.csv") +
+                " (the worst of 2 logs) are not explained"));
   EXPECT_THAT(outcome.output, HasSubstr("frames         500 in 2 logs, "));
   const FrameTable table = FrameTable::Read(folder_.Path("out/summary.csv"));
   EXPECT_EQ(table.rows(), 2u);

@@ -227,7 +227,8 @@ TEST_F(CommandLineTest, CalibrationKeepsPiecesAndStretch) {
       Run("finray_calibrate",
           "--finger %start.yaml --plan %plan.yaml --logs %out.csv "
           "--out_dir %cal --report=false");
-  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  // A log without noise: what is stated is too large.
+  ASSERT_EQ(outcome.code, 4) << outcome.output;
   const Finger found = ReadFinger(folder_.Path("cal/finger.yaml"));
   EXPECT_NEAR(found.back_stiffness_N_mm2, 12500, 2);
   ASSERT_EQ(found.back_pieces.size(), 2u);
