@@ -24,6 +24,7 @@ void Heartbeat::Beat() {
   const auto every = std::chrono::seconds(kEverySeconds);
   for (int beats = 1; !stop_.wait_for(lock, every, [&] { return stopped_; });
        ++beats) {
+    if (step_.empty()) continue;  // the logs are being read
     std::fprintf(stderr, "%d s: %s\n", beats * kEverySeconds, step_.c_str());
   }
 }
