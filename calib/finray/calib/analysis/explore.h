@@ -21,8 +21,8 @@ struct Exploration {
     bool kept = false;
   };
   std::vector<Step> steps;
-  /// What the logs then show and no plan can free: something that changes in
-  /// mid-log. Empty if there is no such thing. What stands in for it would
+  /// Names the change in mid-log that the logs show at the end and that no plan
+  /// can free; empty if there is none. Another effect in its place would
   /// deceive, so nothing is freed any more.
   std::string beyond;
   /// Steps that failed, each with the reason. What was solved before them

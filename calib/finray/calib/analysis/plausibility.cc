@@ -259,8 +259,9 @@ int MetIf(const std::vector<CalibrationFrame>& moved, ContactGuess* guess) {
       }));
 }
 
-// What y may be if +y points from the tip to the base: the stage may count from
-// the base, from the tip, or from the other end of its way.
+// Returns the offsets c of y' = c - y that are likely if +y points from the tip
+// to the base: the stage counts from the base, from the tip, or from the other
+// end of its way.
 std::vector<double> MirrorsOfY(const FramesOfLogs& frames,
                                const Finger& finger) {
   double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -20,7 +20,8 @@ namespace {
 // and a refit with it explains everything.
 constexpr double kRival = 0.2;
 
-// Of the frames, or kFewRejected frames, may stay rejected.
+// A refit fits if at most this share of the frames, or kFewRejected frames,
+// stay rejected.
 constexpr double kMostRejected = 0.02;
 constexpr std::size_t kFewRejected = 3;
 // So many significant effects are tried until one explains the residuals.

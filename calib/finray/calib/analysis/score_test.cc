@@ -198,7 +198,7 @@ class ScoreRanking {
     return time.p_value < ResidualCorrelation::kSignificant ? time.tau : 1;
   }
 
-  // As users count.
+  // Returns the first row of a stretch; rows count from 1.
   int FirstRow(int stretch) const {
     return wide_.stretches[stretch].first_row + 1;
   }
@@ -229,7 +229,8 @@ class ScoreRanking {
     const auto all = unit_.size();
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(all);
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
-    // Of the columns, and between them and all parameters.
+    // Scores and information of the columns, and the information between them
+    // and all parameters.
     Eigen::VectorXd s = Eigen::VectorXd::Zero(n);
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
     Eigen::MatrixXd across = Eigen::MatrixXd::Zero(all, n);

@@ -81,7 +81,7 @@ struct ScoreTest {
 
     /// Says whether a plan can free it.
     bool CanBeFreed() const;
-    /// What SolveWith frees.
+    /// Returns the effect that SolveWith frees to refit this one.
     CandidateEffect Candidate() const;
   };
   /// The best test of each family, the best family first.

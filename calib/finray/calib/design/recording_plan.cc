@@ -207,7 +207,7 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-// What is known of a draw after n rows, each of them recorded `times` times.
+// Returns the information on a draw after n rows, each recorded `times` times.
 Eigen::MatrixXd InformationAfter(std::size_t rows, double times,
                                  const KnownFinger& known,
                                  const RecordingDraw& draw) {

@@ -15,9 +15,9 @@ struct RecordingShortfall {
   std::size_t rows = 0;
   /// The share that meets the target with kMostTimes the rows.
   double met = 0;
-  /// Of so many drawn fingers those that miss it then: in all, because the
-  /// noise of one frame is larger, and because the finger does not touch within
-  /// force_max_N in most rows.
+  /// The number of drawn fingers; of these, the number that misses the target
+  /// with so many rows, the number whose noise of one frame is larger than it,
+  /// and the number that does not touch within force_max_N in most rows.
   int draws = 0, missing = 0, noisy = 0, out_of_reach = 0;
   /// What the rows leave unknown in the other ones, most often.
   std::string parameter;
