@@ -99,9 +99,9 @@ def draw(drawing):
 
 
 def main():
+    target = pathlib.Path(*guard.words(__doc__, 0, 1) or [ROOT / "docs" / "pictures" / "finger.svg"])
     drawing = Drawing(L0, PHI0, scale=4.0, left=250.0, top=60.0)
     draw(drawing)
-    target = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "docs" / "pictures" / "finger.svg"
     target.write_text(drawing.svg(620, 660, "A Fin-Ray finger and its conventions"), "utf-8")
 
 

@@ -116,10 +116,11 @@ def picture(ceres):
 
 
 def main():
+    given = guard.words(__doc__, 0, 1)
     rooms, ceres = includes()
     found = [*faults(rooms), *late_stages(), *peeks()]
     print("\n".join(found), end="\n" if found else "")
-    target = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "docs/pictures/layers.svg")
+    target = pathlib.Path(*given or [ROOT / "docs/pictures/layers.svg"])
     target.write_text(picture(ceres), encoding="utf-8")
     return 1 if found else 0
 

@@ -47,9 +47,8 @@ def places(contacts, free, seed):
 
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent
-    build = pathlib.Path(sys.argv[1])
-    dataset = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else (
-        root / "datasets" / "simulated_r15")
+    build, *dataset = map(pathlib.Path, guard.words(__doc__, 1, 2))
+    dataset, = dataset or [root / "datasets" / "simulated_r15"]
     for name, contacts, free, seed in (("train", 200, 10, 7), ("holdout", 100, 10, 8)):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)

@@ -62,7 +62,7 @@ def angles(geometry, contacts, shares):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "datasets/mixed"
+    folder = pathlib.Path(*guard.words(__doc__, 0, 1) or [ROOT / "datasets/mixed"])
     finger = yaml.safe_load((folder / "finger.yaml").read_text())
     geometry = Geometry(finger, FRONT, BACK)
     draw = random.Random(11)

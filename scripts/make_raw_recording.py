@@ -154,7 +154,7 @@ def write_rig(path, motion, splines, noise):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "datasets/raw_recording"
+    folder = pathlib.Path(*guard.words(__doc__, 0, 1) or [ROOT / "datasets/raw_recording"])
     hidden = yaml.safe_load((ROOT / "datasets/raw_recording/hidden_finger.yaml").read_text())
     front, back = (hidden["beams"][b]["bending_stiffness_N_mm2"] for b in ("front", "back"))
     geometry = Geometry(hidden, front, back)

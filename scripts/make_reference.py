@@ -297,8 +297,7 @@ def write(path, results, names):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else \
-        ROOT / 'tests/statics/reference'
+    folder = pathlib.Path(*guard.words(__doc__, 0, 1) or [ROOT / 'tests/statics/reference'])
     folder.mkdir(parents=True, exist_ok=True)
     with multiprocessing.Pool(2) as pool:
         for file, cases, contacts in (('point_contacts.csv', point_cases(), 2),

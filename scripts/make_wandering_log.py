@@ -54,8 +54,9 @@ def steady_contacts(rows):
 
 
 def main():
-    arguments = [a for a in sys.argv[1:] if a != "--steady"]
-    touches = steady_contacts if "--steady" in sys.argv else contacts
+    given = guard.words(__doc__, 2, 4, ["--steady"])
+    arguments = [a for a in given if a != "--steady"]
+    touches = steady_contacts if "--steady" in given else contacts
     build, out = pathlib.Path(arguments[0]), pathlib.Path(arguments[1])
     rows = int(arguments[2]) if len(arguments) > 2 else 200_000
     finger = arguments[3] if len(arguments) > 3 else ROOT / "configs/fingers/paper_140mm.yaml"

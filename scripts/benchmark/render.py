@@ -156,7 +156,7 @@ def groups(run):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1])
+    folder = pathlib.Path(*guard.words(__doc__, 1, 1))
     run = json.loads((folder / "benchmark.json").read_text("utf-8"))
     by_id = {s["id"]: s for s in run["settings"]}
     environment = page.environment(pathlib.Path(__file__).parent, undefined=jinja2.Undefined)

@@ -29,10 +29,16 @@ def did_you_mean(name, names):
     return f" (did you mean '{shown(known[near[0]])}'?)" if near else ""
 
 
+def printable(text):
+    """A text as one line of a terminal, character by character: names of files and what stands in
+    them may hold line ends and control characters."""
+    return "".join(c if c.isprintable() else "?" for c in text)
+
+
 def shown(text, limit=60):
     """A text of a file, or a value of it, as part of one line."""
     # Of what aliases make endless, reprlib takes the beginning.
     text = text if isinstance(text, str) else reprlib.repr(text) \
         if isinstance(text, (list, dict)) else str(text)
-    text = "".join(c if c.isprintable() else "?" for c in text[:limit + 1])
+    text = printable(text[:limit + 1])
     return text if len(text) <= limit else text[:limit] + "..."

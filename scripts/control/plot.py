@@ -16,7 +16,9 @@ import guard  # noqa: E402
 
 guard.protect("plot.py", __name__)
 
+import figure_file
 import yaml
+from errors import BadInput
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "studies"))
 from plot_style import BLUE, GREEN, INK, ORANGE, QUIET, RED, plt, save
@@ -100,20 +102,18 @@ def draw(folder, experiment):
     below.set(xlabel="time (s)", ylabel="error (N)", xlim=(0, time[-1]), ylim=(-reach, reach))
     above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8.5)
     svg = folder / f"{experiment['name']}.svg"
-    figure.savefig(svg, metadata={"Date": None, "Creator": None})
+    figure_file.write(figure, svg)
     print(svg)
     save(figure, folder / f"{experiment['name']}.png")
 
 
 def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1])
+    folder = pathlib.Path(*guard.words(__doc__, 1, 1))
     try:
         summary = yaml.safe_load((folder / "summary.yaml").read_text())
         experiments = summary["experiments"]
-    except (OSError, KeyError, TypeError) as error:
-        sys.exit(f"plot.py: {folder}/summary.yaml is not that of finray_control: {error}")
+    except (OSError, KeyError, TypeError, ValueError, yaml.YAMLError) as error:
+        raise BadInput(f"{folder}/summary.yaml is not that of finray_control: {error}") from error
     for experiment in experiments:
         draw(folder, experiment)
 

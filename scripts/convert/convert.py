@@ -9,7 +9,7 @@ import tempfile
 import guard
 import project
 import yaml
-from errors import BadInput, UsageError, did_you_mean
+from errors import BadInput, UsageError, did_you_mean, printable
 from kinds import TODAY, kind_of, step
 from yaml_node import load
 
@@ -107,8 +107,8 @@ def run(flags):
             out.mkdir(parents=True, exist_ok=True)
             write(out / path.name, text)
             target = f" -> {out / path.name}"
-        print(f"{path}: {kind}, {was}: " +
-              (f"{'now' if out else 'needs'} version {TODAY[kind]}" if is_old else "is today's") + target)
+        print(printable(f"{path}: {kind}, {was}: " + (
+            f"{'now' if out else 'needs'} version {TODAY[kind]}" if is_old else "is today's") + target))
     return 4 if old and not out else 0
 
 

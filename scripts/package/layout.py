@@ -57,7 +57,7 @@ def layouts(text):
 
 
 def main():
-    include = pathlib.Path(sys.argv[1])
+    include = pathlib.Path(*guard.words(__doc__, 1, 1))
     with tempfile.TemporaryDirectory() as folder:
         source, built = pathlib.Path(folder, "all.cc"), pathlib.Path(folder, "all.o")
         source.write_text("".join(f'#include "{path.relative_to(include)}"\n' for path in sorted(include.rglob("*.h"))))

@@ -76,7 +76,8 @@ complete -o default -F _{name} {name}
 
 
 def main():
-    version, out, executables = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+    version, out, *executables = guard.words(__doc__, 3)
+    out = pathlib.Path(out)
     for folder in ("man1", "completions"):
         (out / folder).mkdir(parents=True, exist_ok=True)
     names = sorted(pathlib.Path(executable).name for executable in executables)

@@ -112,9 +112,7 @@ def sections_of(experiment, folder):
 
 
 def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1])
+    folder = pathlib.Path(*guard.words(__doc__, 1, 1))
     sections = [section for experiment in EXPERIMENTS for section in sections_of(experiment, folder)]
     table = f"{markdown(sections)}\n{tally_text(sections)}\n"
     whole_file.write(folder / "report.html", rendered(sections))

@@ -5,7 +5,6 @@ Every experiment leaves CSV and YAML in a folder of its own below OUT_DIR, which
 report.py turns into a page. Seeds are fixed; --quick takes fewer of them.
 """
 
-import argparse
 import concurrent.futures
 import os
 import pathlib
@@ -145,7 +144,7 @@ def prepare(out):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = guard.Parser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)

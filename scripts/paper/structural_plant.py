@@ -249,9 +249,8 @@ def errors(truth, found, friction, counted):
 
 
 def main():
-    if len(sys.argv) != 4:
-        sys.exit(__doc__.strip())
-    lab = Lab(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), int(sys.argv[3]))
+    build, out, seed = guard.words(__doc__, 3, 3)
+    lab = Lab(pathlib.Path(build).resolve(), pathlib.Path(out), int(seed))
     results = {"words": WORDS, "bench": lab.bench, "calibration": lab.calibrate(), "contact_frames": lab.contact_frames(),
                "presses": lab.presses(), "outlines": lab.outlines()}
     (lab.out / "results.yaml").write_text(yaml.safe_dump(results, sort_keys=False))

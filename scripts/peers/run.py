@@ -29,7 +29,8 @@ class NotInstalled(Exception):
 
 
 def main():
-    peer, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    peer, folder = guard.words(__doc__, 2, 2)
+    folder = pathlib.Path(folder).resolve()
     job = json.loads((folder / "job.json").read_text("utf-8"))
     sys.modules["run"] = sys.modules["__main__"]
     try:

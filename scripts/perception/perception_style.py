@@ -1,16 +1,13 @@
 """The look of the perception plots; each is written as SVG and PNG."""
 
-import io
 import pathlib
 import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
 import plain_matplotlib  # noqa: F401  before matplotlib
 
-sys.path.append(str(pathlib.Path(__file__).parents[2] / "calib" / "report"))
-
+import figure_file
 import matplotlib
-import whole_file
 
 matplotlib.use("agg")
 import matplotlib.pyplot as plt
@@ -28,9 +25,7 @@ plt.rcParams.update({
 
 
 def save(figure, stem):
-    """Saves SVG and PNG without version and date: equal numbers give equal bytes."""
-    for ending, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
-        image = io.BytesIO()
-        figure.savefig(image, format=ending, bbox_inches="tight", metadata=metadata)
-        whole_file.write(f"{stem}.{ending}", image.getvalue())
+    """Saves SVG and PNG."""
+    for ending in ("svg", "png"):
+        figure_file.write(figure, f"{stem}.{ending}", bbox_inches="tight")
     plt.close(figure)

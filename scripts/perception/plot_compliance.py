@@ -62,4 +62,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(*guard.words(__doc__, 1, 1))

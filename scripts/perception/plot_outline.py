@@ -101,4 +101,4 @@ def main(folder, truth=None):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(*guard.words(__doc__, 1, 2))

@@ -6,7 +6,7 @@ import math
 import yaml
 
 import data
-from errors import rms
+from sums import rms
 from tools import number, write_yaml
 
 # As finray_simulate takes them. A calibration takes circles: near the end of its short

@@ -3,7 +3,7 @@
 import yaml
 
 import data
-from errors import rms
+from sums import rms
 
 LENGTH_MM = 38
 PLAIN = {"gauge_gain": {}, "gauge_offset": {}}

@@ -3,7 +3,7 @@
 import math
 
 import data
-from errors import rms
+from sums import rms
 from tools import number
 
 FORCE_STD, FORCE_MAX = 0.1, 25

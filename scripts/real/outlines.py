@@ -6,7 +6,7 @@ import yaml
 
 import data
 import gauged_finger
-from errors import mean, rms
+from sums import mean, rms
 from tools import number, rows, run, write_table, write_yaml
 
 RADIUS_MM = 30

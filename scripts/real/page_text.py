@@ -5,7 +5,7 @@ import math
 import bare_finger
 import bench
 import gauged_finger
-from errors import rms
+from sums import rms
 
 
 def table(header, rows):

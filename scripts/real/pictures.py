@@ -9,11 +9,12 @@ sys.path.append(str(ROOT / "scripts" / "perception"))
 
 from perception_style import BLUE as AFTER, ORANGE as BEFORE, QUIET, plt  # noqa: E402
 
+import figure_file  # noqa: E402
 import gauged_finger  # noqa: E402
 
 
 def save(figure, path):
-    figure.savefig(path, dpi=80, bbox_inches="tight")
+    figure_file.write(figure, path, dpi=80, bbox_inches="tight")
     plt.close(figure)
 
 

@@ -25,7 +25,7 @@ import gauged_finger
 import outlines
 import page_text
 import pictures
-from errors import rms
+from sums import rms
 from tools import ROOT, Failed, Tools, write_yaml
 
 sys.path.append(str(ROOT / "calib" / "report"))
@@ -128,9 +128,7 @@ def directions(series):
 
 
 def main():
-    if len(sys.argv) != 5:
-        sys.exit(__doc__)
-    build, work, target, shown = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+    build, work, target, shown = (pathlib.Path(argument).resolve() for argument in guard.words(__doc__, 4, 4))
     if not data.there():
         print(f"real_data: {data.FOLDER}: the measurements are not here; {target.name} stays as it is")
         return

@@ -57,9 +57,7 @@ def cases(build, logs, out):
 
 
 def main():
-    if len(sys.argv) != 4:
-        sys.exit(__doc__)
-    build, logs, out = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+    build, logs, out = (pathlib.Path(argument).resolve() for argument in guard.words(__doc__, 3, 3))
     found = []
     try:
         for finger, world, folder, name, plan in cases(build, logs, out):

@@ -122,14 +122,13 @@ def write_log(folder, log, plant, table, seed):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
-        sys.exit(__doc__)
-    out = pathlib.Path(sys.argv[1])
+    given = guard.words(__doc__, 1, 2)
+    out = pathlib.Path(given[0])
     try:
         print(ccx.version(), flush=True)
     except ccx.NotInstalled as error:
         sys.exit(print(f"make_logs.py: {error}", file=sys.stderr) or 2)
-    with multiprocessing.Pool(int(sys.argv[2]) if len(sys.argv) > 2 else os.cpu_count()) as pool:
+    with multiprocessing.Pool(int(given[1]) if len(given) > 1 else os.cpu_count()) as pool:
         for finger in HEIGHTS:
             plant = plants.read(BUNDLED / finger / "plant.yaml")
             for name, friction in FRICTIONS.items():

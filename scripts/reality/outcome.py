@@ -1,5 +1,8 @@
 #!/usr/bin/python3
-"""Calibrates with one log, estimates the other and compares both with the truth."""
+"""Calibrates with one log, estimates the other and compares both with the truth.
+
+outcome.py ESTIMATES.csv TRUTH.csv compares estimates that are there.
+"""
 
 import csv
 import math
@@ -157,4 +160,4 @@ def main(estimates_path, truth_path):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(*guard.words(__doc__, 2, 2))

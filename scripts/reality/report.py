@@ -134,9 +134,7 @@ def rendered(outcomes):
 
 
 def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1])
+    folder = pathlib.Path(*guard.words(__doc__, 1, 1))
     try:
         outcomes = json.loads((folder / "outcomes.json").read_text("utf-8"))
     except (OSError, ValueError) as problem:

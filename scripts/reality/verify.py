@@ -176,7 +176,7 @@ def table(title, header, body):
 
 
 def main():
-    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build").resolve()
+    build = pathlib.Path(*guard.words(__doc__, 0, 1) or ["build"]).resolve()
     try:
         print(ccx.version())
     except ccx.NotInstalled as error:

@@ -13,6 +13,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
 import guard  # noqa: E402
 
 guard.protect("wide_contact.py", __name__)
+guard.words(__doc__, 0, 0)
 
 import numpy as np
 

@@ -101,17 +101,17 @@ def tables(build, folder):
 
 
 def main():
-    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--check"]):
-        sys.exit(__doc__)
+    given = guard.words(__doc__, 1, 1, ["--check"])
+    build, = [word for word in given if word != "--check"]
     with tempfile.TemporaryDirectory() as folder:
-        made = tables(pathlib.Path(sys.argv[1]).resolve(), folder)
+        made = tables(pathlib.Path(build).resolve(), folder)
     page = PAGE.read_text(encoding="utf-8")
     blocks = {name: text for _, name, text, _ in BLOCK.findall(page)}
     if blocks.keys() != made.keys():
         sys.exit(f"{PAGE.relative_to(ROOT)}: blocks only in the page or only in the code: {sorted(blocks.keys() ^ made.keys())}")
     stale = [name for name in made if made[name] != blocks[name]]
     print(f"{len(made)} blocks, {sum(text.count('`') // 2 for text in made.values())} names")
-    if "--check" in sys.argv:
+    if "--check" in given:
         for name in stale:
             for line in sorted(set(made[name].splitlines()) ^ set(blocks[name].splitlines())):
                 print(f"{name}: {'page' if line in blocks[name] else 'code'}: {line}")

@@ -113,12 +113,11 @@ def forms(build):
 
 
 def main():
-    if len(sys.argv) < 3:
-        sys.exit(__doc__.strip())
-    build, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    build, out, *counts = guard.words(__doc__, 2)
+    build, out = pathlib.Path(build).resolve(), pathlib.Path(out)
     rows = []
     print(f"{'frames':>7} {'setting':28} {'CPU, s':>7} {'clock, s':>8} {'error, std':>10} {'stiffness std, %':>16} {'MB':>5}")
-    for frames in [int(a) for a in sys.argv[3:]] or [210, 1000, 10000]:
+    for frames in [int(a) for a in counts] or [210, 1000, 10000]:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             log = simulate(build, folder, frames)

@@ -28,11 +28,10 @@ MOST_FRAMES_TO_REPEAT = 10000
 
 
 def main():
-    if len(sys.argv) < 3:
-        sys.exit(__doc__.strip())
-    builds = [pathlib.Path(argument).resolve() for argument in sys.argv[1:3]]
+    given = guard.words(__doc__, 2)
+    builds = [pathlib.Path(argument).resolve() for argument in given[:2]]
     print(f"{'frames':>8} {'threads':>7} {'CPU, s':>15} {'ratio':>6} {'clock, s':>15} {'ratio':>6} {'apart, std':>10}")
-    for frames in [int(a) for a in sys.argv[3:]] or [10000]:
+    for frames in [int(a) for a in given[2:]] or [10000]:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             log = simulate(builds[0], folder, frames)

@@ -29,12 +29,11 @@ FAR_STD = 1e-5
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
+    compared = guard.words(__doc__, 2, 2)
     iterations, changes = [0, 0], collections.Counter()
     ok = far = 0
     largest = {"contact_1_mm": 0.0, "normal_1_N": 0.0}
-    for both in itertools.zip_longest(*map(frames, sys.argv[1:])):
+    for both in itertools.zip_longest(*map(frames, compared)):
         if None in both:
             sys.exit("the results have different numbers of frames")
         a, b = both

@@ -42,12 +42,11 @@ def seconds(build, log, threads, processes):
 
 
 def main():
-    if len(sys.argv) not in (3, 4):
-        sys.exit(__doc__.strip())
-    build, log = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    build, log, *runs = guard.words(__doc__, 2, 3)
+    build, log = pathlib.Path(build).resolve(), pathlib.Path(log).resolve()
     ways = {"one thread": (1, 1), "two threads": (2, 1), "two processes": (1, 2)}
     times = {way: [] for way in ways}
-    for _ in range(int(sys.argv[3]) if len(sys.argv) == 4 else 7):
+    for _ in range(int(*runs or [7])):
         for way, (threads, processes) in ways.items():
             times[way].append(seconds(build, log, threads, processes))
     one, two, both = (statistics.median(times[way]) for way in ways)

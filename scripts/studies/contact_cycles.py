@@ -198,7 +198,7 @@ def plot(frames, path):
 
 
 def main():
-    build, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    build, out = map(pathlib.Path, guard.words(__doc__, 2, 2))
     tools = Tools(build, out / "cycles")
     calibrated = tools.calibrate()
     fingers = {"true": (tools.finger, ""), "calibrated": (calibrated, ""), "smoothed": (calibrated, KNOWN)}

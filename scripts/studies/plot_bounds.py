@@ -100,7 +100,7 @@ def two_contacts(rows, path):
 
 
 def main():
-    out = pathlib.Path(sys.argv[1])
+    out = pathlib.Path(*guard.words(__doc__, 1, 1))
     by_height(read(out / "by_height.csv"), out / "error_by_height.png")
     two_contacts(read(out / "two_contacts.csv"), out / "two_contacts.png")
 

@@ -6,6 +6,7 @@ import sys
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
 import plain_matplotlib  # noqa: F401  before matplotlib
 
+import figure_file
 import matplotlib
 
 matplotlib.use("agg")
@@ -24,7 +25,6 @@ plt.rcParams.update({
 
 
 def save(figure, path):
-    # Without version and date equal numbers give equal bytes.
-    figure.savefig(path, bbox_inches="tight", pad_inches=0.12, metadata={"Software": None})
+    figure_file.write(figure, path, bbox_inches="tight", pad_inches=0.12)
     plt.close(figure)
     print(path)

@@ -21,7 +21,7 @@ import data
 import gauged_finger
 import outlines
 import report
-from errors import rms
+from sums import rms
 from tools import Tools
 
 
