@@ -16,6 +16,7 @@ from errors import BadInput
 LEAST_UNPACKED, UNPACKED_RATIO = 32 << 20, 32
 LEAST_BYTES, BYTES_RATIO = 512 << 20, 200  # of memory, beside what a process has already
 LEAST_SECONDS, BYTES_A_SECOND = 8, 20000  # of CPU
+WAIT_RATIO = 10  # times the CPU's seconds may pass, as where other processes have most of it
 MOST_COLUMNS = 10000  # of a table
 
 
@@ -58,12 +59,17 @@ def _too_long(*_):
     raise TooLong(why("time"))
 
 
+def seconds(size):
+    """How many seconds of CPU a file of so many bytes may take."""
+    return LEAST_SECONDS + size // BYTES_A_SECOND
+
+
 def _in_use():
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[0]) * resource.getpagesize()
 
 
-def _seconds():
+def _used_seconds():
     used = resource.getrusage(resource.RUSAGE_SELF)
     return int(used.ru_utime + used.ru_stime)
 
@@ -76,7 +82,7 @@ def bounded(size):
     handler = signal.signal(signal.SIGXCPU, _too_long)
     try:
         for kind, wanted in ((resource.RLIMIT_AS, _in_use() + LEAST_BYTES + BYTES_RATIO * size),
-                             (resource.RLIMIT_CPU, _seconds() + LEAST_SECONDS + size // BYTES_A_SECOND)):
+                             (resource.RLIMIT_CPU, _used_seconds() + seconds(size))):
             soft, hard = before[kind]
             if soft == resource.RLIM_INFINITY or wanted < soft:
                 resource.setrlimit(kind, (wanted, hard))

@@ -29,25 +29,29 @@ def _short(name):
 class Definitions:
     """{type: [(field, type, array)]}; array: None, '' for a sequence, or a fixed count.
 
-    text_of: the definition of a type that no file has to bring along, or None."""
+    text_of: the definition of a type that no file has to bring along, or None. A definition is
+    taken apart when a message needs it, so a wrong one concerns no other topic."""
 
     def __init__(self, text_of=ros_definitions.text_of):
-        self.types, self.text_of = {}, text_of
+        self.texts, self.types, self.text_of = {}, {}, text_of
 
     def add(self, name, text):
         """A definition as bags have it: its own, and behind lines of = those that it uses."""
         parts = re.split(r"^=+\s*$", text, flags=re.M)
-        self.types[_short(name)] = self._fields(name, parts[0])
+        self._keep(name, parts[0])
         for part in parts[1:]:
             head, _, body = part.strip().partition("\n")
             if head.startswith("MSG:"):
-                used = head[4:].strip()
-                self.types[_short(used)] = self._fields(used, body)
+                self._keep(head[4:].strip(), body)
+
+    def _keep(self, name, text):
+        self.texts[_short(name)] = text
+        self.types.pop(_short(name), None)
 
     def of(self, name):
         name = _short(name)
         if name not in self.types:
-            text = self.text_of(name)
+            text = self.texts[name] if name in self.texts else self.text_of(name)
             if text is None:
                 raise UnknownType(name)
             self.types[name] = self._fields(name, text)

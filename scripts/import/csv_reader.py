@@ -63,10 +63,12 @@ def _lines(path, text):
     for number, line in enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"), 1):
         if len(line) > MOST_LINE:
             raise BadInput(f"{path}:{number}: a line of more than 16 MiB")
-        if len(line) > MOST_COLUMNS and max(map(line.count, dialects.DELIMITERS)) > MOST_COLUMNS:
-            raise BadInput(f"{path}:{number}: a line of more than {MOST_COLUMNS} cells")
+        wide = len(line) > MOST_COLUMNS and max(map(line.count, dialects.DELIMITERS)) > MOST_COLUMNS
         if line.startswith("#"):
-            comments.append((number, line.lstrip("# ")))
+            if not wide:  # else it is no header
+                comments.append((number, line.lstrip("# ")))
+        elif wide:
+            raise BadInput(f"{path}:{number}: a line of more than {MOST_COLUMNS} cells")
         elif line.strip():
             lines.append((number, line))
     return lines, comments

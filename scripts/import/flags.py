@@ -6,6 +6,8 @@ USAGE = ("Turns a lab's recordings into one log of finray: reads, converts, join
          "finray_import --logs gauges.csv,rig.csv --mapping lab.yaml --out log.csv [--plateaus]")
 EPILOGUE = "Exit code: 0 good, 1 wrong usage, 2 bad input, 3 not determined by the recording."
 
+LEAST_S, MOST_S = 1e-9, 1e9  # the clock of a log resolves a nanosecond
+DURATION = "a number above 0, of 1e-9 to 1e9 s"
 JOINS = ["linear", "nearest", "previous"]
 
 
@@ -39,6 +41,21 @@ FLAGS = [
 ]
 
 
+def is_duration(value):
+    """Whether a number may be a time to wait for, of a flag and of a mapping."""
+    return LEAST_S <= value < MOST_S
+
+
+def is_offset(value):
+    """Whether a number may be added to times."""
+    return abs(value) < MOST_S
+
+
+def is_span(values):
+    """Whether [first, last] is a stretch of time."""
+    return values[0] <= values[1]
+
+
 def default(name):
     return next(flag.default for flag in FLAGS if flag.name == name)
 
@@ -69,8 +86,8 @@ def _value(flag, text):
             value = float(text)
         except ValueError:
             value = -1.0
-        if not 0 < value < 1e9:
-            raise UsageError(f"--{flag.name}: expected a number above 0, found '{text}'")
+        if not is_duration(value):
+            raise UsageError(f"--{flag.name}: expected {DURATION}, found '{text}'")
         return value
     return text
 

@@ -3,6 +3,7 @@ say, or else as the recording shows (force_frame.py)."""
 
 import numpy as np
 
+import flags
 import force_frame
 import joining
 from errors import BadInput, NoSolution, UsageError
@@ -11,8 +12,8 @@ from errors import BadInput, NoSolution, UsageError
 class ForceCorrection:
     """kept: what was applied, for the mapping; said: (label, text) of the summary; warnings."""
 
-    def __init__(self, flags, given, mapping):
-        self.flags, self.given, self.mapping = flags, given, mapping
+    def __init__(self, values, given, mapping):
+        self.flags, self.given, self.mapping = values, given, mapping
         self.kept, self.said, self.warnings = {}, [], []
         self.axes_are_unknown = False  # the log gets the magnitude, of means where it averages
 
@@ -62,7 +63,7 @@ class ForceCorrection:
             first, last = map(float, text.split(":"))
         except ValueError:
             first, last = 1.0, 0.0
-        if not first <= last:
+        if not flags.is_span([first, last]):
             raise UsageError(f"--free_s: expected first:last, such as 0:2.5, found '{text}'")
         return [first, last]
 

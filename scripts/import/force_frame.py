@@ -249,15 +249,18 @@ def take_magnitude(columns, noise):
 
     noise: (column, std of a reading, std of a row of the median number of readings). The size of
     a mean of n readings is too large by the noise of the mean, |m|^2 = |F|^2 + s_x^2 + s_y^2, which
-    scatter tells, so that much is taken off.
+    scatter tells, so that much is taken off. Returns whether it is known.
     """
     along = np.stack([columns.pop(name) for name in SENSOR_AXES], axis=1)
     square, std = (along**2).sum(axis=1), {name: row for name, _, row in noise}
-    if all(name in std for name in SENSOR_AXES):
-        count = columns["force_readings"]
-        scatter = np.stack([columns.pop(plateaus.scatter_name(name)) for name in SENSOR_AXES], axis=1)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            columns["force_scatter_N"] = np.sqrt((along**2 * scatter**2).sum(axis=1) / square)
-            off = sum(std[name]**2 for name in SENSOR_AXES) * np.median(count) / count
+    scatters = [columns.pop(plateaus.scatter_name(name), None) for name in SENSOR_AXES]
+    known = all(name in std for name in SENSOR_AXES)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        if all(scatter is not None for scatter in scatters):
+            columns["force_scatter_N"] = np.sqrt((along**2 * np.stack(scatters, axis=1)**2).sum(axis=1) / square)
+        if known:
+            count = columns["force_readings"]
+            off = sum(std[name]**2 for name in SENSOR_AXES) * np.median(count[count > 0]) / count
             square = np.where(count > 0, np.maximum(square - off, 0), np.nan)
     columns["force_N"] = np.sqrt(square)
+    return known

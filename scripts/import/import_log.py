@@ -20,8 +20,12 @@ import readers
 import recording as recordings_of
 import report
 import time_offset
-from errors import BadInput, NoSolution, UsageError, shown
+from errors import BadInput, NoSolution, UsageError, printable, shown
 from force_correction import ForceCorrection
+
+
+def _print(text, **where):
+    print(printable(text), **where)
 
 
 class Import:
@@ -60,10 +64,7 @@ class Import:
             if len(timed) > 1 and r.stamps is None and r.seconds is None:
                 raise BadInput(f"{r.table.path}: {r.name} has no column that becomes time_s, so it "
                                "cannot be joined with the others")
-            if len(timed) > 1 and 2 * r.same_times >= r.table.rows - 1 > 0:
-                raise BadInput(f"{r.table.path}: {r.same_times} of the {r.table.rows} rows of {r.name} have the time of the "
-                               "row before, so they cannot be joined with the others by time; a clock of whole seconds "
-                               "is too coarse")
+            recordings_of.tell_equal_times(r, len(timed) > 1)
         self.in_force["time_origin"] = recordings_of.align_clocks(self.recordings, self.mapping)
         for r in self.recordings:
             self.warnings += r.warnings
@@ -80,10 +81,9 @@ class Import:
     def print_tables(self):
         for r in self.recordings:
             notes = [n for n in r.table.notes if not n.startswith("warning: ")]
-            print(f"{r.name}: {r.table.rows} rows" + "".join(f"; {n}" for n in notes))
-        print(report.understood(self.recordings))
-        for line in report.not_understood(self.recordings):
-            print(line)
+            _print(f"{r.name}: {r.table.rows} rows" + "".join(f"; {n}" for n in notes))
+        for line in report.understood(self.recordings) + report.not_understood(self.recordings):
+            _print(line)
 
     def has_channels(self):
         """Whether there is anything to write; if not and there should be, BadInput."""
@@ -105,7 +105,7 @@ class Import:
                 value = float(wish)
             except ValueError:
                 value = np.inf
-            if not abs(value) < 1e9:
+            if not flags.is_offset(value):
                 raise UsageError("--force_time_offset_s: expected auto, estimate or a number, "
                                  f"found '{wish}'")
             if force is None or force.time is None:
@@ -193,17 +193,19 @@ class Import:
             self.warnings += correction.warnings
         columns, noise, notes = self.final_columns()
         if self.in_force["force"] is not None and correction.axes_are_unknown:
-            force_frame.take_magnitude(columns, noise)
-            if not noise:
-                self.warnings.append("force_N is the size of noisy readings, which is above 0 in free "
-                                     "rows; --plateaus averages the axes first")
+            known = force_frame.take_magnitude(columns, noise)
+            if not known:
+                self.warnings.append("force_N is the size of noisy readings, which is above 0 in free rows; " + (
+                    "no place has two of them, so hold places longer" if self.in_force["plateaus"] else
+                    "--plateaus averages the axes first"))
         if self.flags["out"]:
             output.write(self.flags["out"], columns,
                          output.mapping_text(self.recordings, self.mapping, self.in_force))
-            print(self.flags["out"])
-        print(report.summary(self.said))
+            _print(self.flags["out"])
+        for line in report.summary(self.said):
+            _print(line)
         for text in self.warnings + notes:
-            print(f"warning: {text}", file=sys.stderr)
+            _print(f"warning: {text}", file=sys.stderr)
 
 
 def _versions():

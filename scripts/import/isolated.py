@@ -7,6 +7,7 @@ neither ends the import: the parent says in one line what happened.
 import os
 import pickle
 import resource
+import select
 import signal
 import sys
 
@@ -33,8 +34,18 @@ def _child(function, argument, size, writer):
             pickle.dump((True, result), file, pickle.HIGHEST_PROTOCOL)
 
 
+def _await(reader, child, size):
+    """Waits for the first bytes. A child that waits for a device, say, uses no CPU and never ends."""
+    told = select.poll()
+    told.register(reader, select.POLLIN)
+    if not told.poll(1000 * limits.WAIT_RATIO * limits.seconds(size)):
+        os.kill(child, signal.SIGKILL)
+        raise limits.TooLong
+
+
 def call(function, argument, size):
-    """function(argument), or the exception that it raises; ValueError if its process ends."""
+    """function(argument), or the exception that it raises; ValueError if its process ends, TooLong
+    if it takes more time than a file of so many bytes may."""
     sys.stdout.flush()
     sys.stderr.flush()
     reader, writer = os.pipe()
@@ -48,6 +59,7 @@ def call(function, argument, size):
     os.close(writer)
     try:
         with os.fdopen(reader, "rb") as file:
+            _await(reader, child, size)
             good, result = pickle.load(file)
     except (EOFError, pickle.UnpicklingError):  # the child ended before it had written all
         good = None

@@ -128,7 +128,8 @@ class Table:
                 header, target = _target(columns, key)
                 self.columns[header], self.places[header] = target, columns.places[key]
         elif "columns" in node.values:
-            shared = os.path.join(os.path.dirname(node.path), node.text("columns"))
+            shared = os.path.join(os.path.dirname(node.path), node.text(
+                "columns", expected="a mapping (header: column), or the name of a YAML file"))
             other = Node(shared, load(shared), ["schema_version", "columns"] + FORMAT_KEYS)
             if not other.is_map("columns"):
                 raise BadInput(f"{shared}: needs `columns`, a mapping")
@@ -142,8 +143,8 @@ class Table:
                 "not_measured": node.words("not_measured") or None,
                 "row_type": node.text("row_type") if "row_type" in node.values else None}
         self.settings.update({key: v for key, v in read.items() if v is not None})
-        self.time_offset_s = node.number("time_offset_s")
-        self.time_offset_std_s = node.number("time_offset_std_s")
+        self.time_offset_s = node.number("time_offset_s", allowed=flags.is_offset, expected="a number below 1e9 s")
+        self.time_offset_std_s = node.number("time_offset_std_s", allowed=lambda std: std >= 0, expected="a number of at least 0")
 
 
 def means(said, name):
@@ -225,11 +226,11 @@ def read(path):
     if join:
         mapping.join = {"base": join.text("base"),
                         "method": join.text("method", flags.JOINS, flags.default("join")),
-                        "longest_gap_s": join.number("longest_gap_s")}
+                        "longest_gap_s": join.number("longest_gap_s", allowed=flags.is_duration, expected=flags.DURATION)}
     plateaus = top.child("plateaus", ["shortest_s"])
     if plateaus:
         mapping.plateaus = {"shortest_s": plateaus.number(
-            "shortest_s", flags.default("shortest_plateau_s"))}
+            "shortest_s", flags.default("shortest_plateau_s"), flags.is_duration, flags.DURATION)}
     force = top.child("force", FORCE)
     if force:
         mapping.force = {key: force.numbers(key) for key in ("bias_N", "bias_std_N")}
@@ -237,5 +238,8 @@ def read(path):
                              ("tool_weight_N", "tool_weight_std_N", "free_s"))
         mapping.force.update((key, force.number(key)) for key in
                              ("rotation_deg", "rotation_std_deg"))
+        free_s = mapping.force["free_s"]
+        if free_s is not None and not flags.is_span(free_s):
+            force.fail("free_s", "expected [first, last], the first one not larger")
         mapping.force["turns_with_object"] = force.switch("turns_with_object", False)
     return mapping

@@ -12,7 +12,7 @@ import zlib
 
 import cdr
 import message_tables
-from errors import BadInput
+from errors import BadInput, shown
 from limits import Room
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -102,7 +102,7 @@ class _Channels:
         text = fields.take(fields.number("I"))
         self.schemas[identity] = (name, encoding)
         if encoding == "ros2msg":
-            self.definitions.add(name, text.decode("utf-8"))
+            self.definitions.add(name, text.decode("utf-8", "replace"))
 
     def channel(self, fields):
         identity, schema = fields.number("H"), fields.number("H")
@@ -117,20 +117,12 @@ class _Channels:
             raise ValueError("a message of a channel that is not defined")
         topic, encoding, schema = self.channels[identity]
         name, schema_encoding = self.schemas.get(schema, ("", ""))
-        if topic in self.topics.left_out:
-            return
         if encoding == "json":
-            value = json.loads(fields.rest())
+            self.topics.add(topic, recorded, lambda: json.loads(fields.rest()))
         elif encoding == "cdr" and schema_encoding == "ros2msg":
-            try:
-                value = cdr.decode(fields.rest(), name, self.definitions)
-            except cdr.UnknownType as unknown:
-                self.topics.leave_out(topic, f"{topic} needs the definition of {unknown}")
-                return
-        else:
-            self.topics.leave_out(topic, f"{topic} is in {encoding} with a schema in {schema_encoding or 'nothing'}")
-            return
-        self.topics.add(topic, recorded, value)
+            self.topics.add(topic, recorded, lambda: cdr.decode(fields.rest(), name, self.definitions))
+        elif topic not in self.topics.left_out:
+            self.topics.leave_out(topic, f"is in {shown(encoding)} with a schema in {shown(schema_encoding) or 'nothing'}")
 
 
 def read(path):

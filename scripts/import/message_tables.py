@@ -5,10 +5,12 @@ A message is a dict of numbers, texts, lists and dicts, as its definition nests 
 """
 
 import array
+import struct
 
 import numpy as np
 
-from errors import BadInput
+import cdr
+from errors import BadInput, shown
 from limits import MOST_COLUMNS
 from raw_table import Column, RawTable
 
@@ -109,22 +111,33 @@ class Topics:
 
     def __init__(self):
         self.topics, self.left_out = {}, {}  # left_out: {topic: what to say of it}
+        self.broken = False  # whether one is left out that should be readable
 
     def leave_out(self, topic, why):
-        self.left_out[topic] = why
+        self.left_out[topic] = f"{shown(topic)} {why}"
         self.topics.pop(topic, None)
 
-    def add(self, topic, recorded, message):
-        """A message, recorded in ns."""
+    def add(self, topic, recorded, decoded):
+        """A message, recorded in ns, that decoded() returns. A topic of which one cannot be read is left
+        out, not the others."""
+        if topic in self.left_out:
+            return
+        rows = self.topics.setdefault(topic, _Topic())
+        number = len(rows.recorded) + 1
         try:
-            self.topics.setdefault(topic, _Topic()).add(recorded, message)
+            rows.add(recorded, decoded())
+        except cdr.UnknownType as unknown:
+            self.leave_out(topic, f"needs the definition of {shown(unknown)}, which the bag lacks")
         except _TooWide:
-            self.leave_out(topic, f"{topic} has more than {MOST_COLUMNS} numbers a message")
+            self.leave_out(topic, f"has more than {MOST_COLUMNS} numbers a message")
+        except (ArithmeticError, AttributeError, RecursionError, TypeError, ValueError, struct.error) as error:
+            self.broken = True
+            self.leave_out(topic, f"has a message that cannot be read, its number {number}: {shown(error)}")
 
     def tables(self, path):
         if not self.topics and self.left_out:
             raise BadInput(f"{path}: no topic can be read: {'; '.join(self.left_out.values())}")
         out = [topic.table(path, name) for name, topic in self.topics.items()]
         if self.left_out:
-            out[0].notes.append("left out: " + "; ".join(self.left_out.values()))
+            out[0].notes.append("warning: " * self.broken + "left out: " + "; ".join(self.left_out.values()))
         return out

@@ -94,22 +94,26 @@ def average(recordings, shortest_s):
     scatters, noise = {}, []
     for r in recordings:
         ranges = [np.searchsorted(r.time, (a, b)) for a, b in found]
-        # By kind of channel: so many readings tell as much as one independent one.
+        # By kind of channel: so many readings tell as much as one independent one, and how many there are.
         worth = {name.split("_")[0]: 1.0 for name in r.channels}
+        counts = {}
         for name, values in r.channels.items():
             runs = [values[a:b][np.isfinite(values[a:b])] for a, b in ranges]
             columns[name] = np.array([run.mean() if len(run) else np.nan for run in runs])
+            kind = name.split("_")[0]
+            own = np.array([len(run) for run in runs])
+            there = counts.setdefault(kind, own)
+            # Of channels that read at different times the one that reads least; a dead one does not count.
+            counts[kind] = np.where((own > 0) & (there > 0), np.minimum(own, there), np.maximum(own, there))
             spread = np.array([run.std(ddof=1) if len(run) > 1 else np.nan for run in runs])
             scatters[scatter_name(name)] = spread
             if np.isfinite(spread).any():
                 one = float(np.sqrt(np.nanmean(spread**2)))
-                count, factor = np.median([len(run) for run in runs]), mean_std_factor(runs)
+                count, factor = np.median([len(run) for run in runs if len(run)]), mean_std_factor(runs)
                 noise.append((name, one, one / np.sqrt(count) * factor))
-                kind = name.split("_")[0]
                 worth[kind] = max(worth[kind], factor**2)
         for kind, readings in sorted(worth.items()):
-            scatters[f"{kind}_readings"] = np.array([max(1.0, (b - a) / readings)
-                                                     for a, b in ranges])
+            scatters[f"{kind}_readings"] = np.where(counts[kind] > 0, np.maximum(1.0, counts[kind] / readings), 0.0)
     measured = [n for n in columns if n.startswith(FOLLOWED)]
     empty = sum(bool(np.isnan([columns[n][i] for n in measured]).any())
                 for i in range(len(found)))

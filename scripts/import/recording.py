@@ -9,6 +9,10 @@ from errors import BadInput, shown
 from mapping_file import Target
 
 
+# A slope of the force lasts some tenths of a second. Fewer rows of one time are a logger's stumbling.
+MOST_STEP_S, COARSE_SHARE = 0.1, 0.25  # of a clock, and of rows
+
+
 class Used:
     """A column that became a channel, and the Unit or Counts that was used, or None."""
 
@@ -133,9 +137,7 @@ def _take_time(recording, column, target):
     if len(back):
         raise BadInput(f"{table.where(back[0] + 1)}: column '{shown(column.name)}': the time goes "
                        "back; rows must be in order of time")
-    recording.same_times = same = int(np.sum(steps == 0))
-    if same:
-        recording.warnings.append(f"{recording.name}: {same} rows have the time of the row before")
+    recording.same_times = int(np.sum(steps == 0))
     return unit
 
 
@@ -160,6 +162,51 @@ def convert(table, mapping):
             recording.channels[target.to] = _convert(recording, column, target, unit)
         recording.used.append(Used(column.name, target, unit))
     return recording
+
+
+def _means(values, first, turns):
+    """The mean of each group of rows, of what is measured in it."""
+    good = np.isfinite(values)
+    if turns:
+        values = values.copy()
+        values[good] = np.unwrap(values[good], period=360)
+    with np.errstate(invalid="ignore"):
+        return np.add.reduceat(np.where(good, values, 0.0), first) / np.add.reduceat(good.astype(int), first)
+
+
+def _differ(values, first):
+    """Whether what is measured in a group of rows differs."""
+    good = np.isfinite(values)
+    return np.maximum.reduceat(np.where(good, values, -np.inf), first) > \
+        np.minimum.reduceat(np.where(good, values, np.inf), first)
+
+
+def tell_equal_times(recording, joins):
+    """Says that rows have one time. Where the table is joined with others by time they become their mean;
+    BadInput if many differ and the steps of the clock are so long that what is measured in one has no time."""
+    if not recording.same_times:
+        return
+    name, same = recording.name, f"{recording.same_times} of the {recording.table.rows} rows of {recording.name} have " \
+        "the time of the row before"
+    if not joins:
+        recording.warnings.append(f"{name}: {same}")
+        return
+    at = recording.stamps if recording.seconds is None else recording.seconds
+    steps = np.diff(at)
+    first = np.concatenate(([0], np.flatnonzero(steps > 0) + 1))
+    step_s = np.median(steps[steps > 0]) / (1e9 if recording.seconds is None else 1) if len(first) > 1 else np.inf
+    differ = np.any([_differ(values, first) for values in recording.channels.values()], axis=0)
+    tied = np.sum((np.diff(first, append=len(at)) - 1)[differ])
+    if step_s > MOST_STEP_S * (1 + 1e-6) and tied >= COARSE_SHARE * len(steps):
+        raise BadInput(f"{recording.table.path}: {same}: its clock steps by {step_s:.3g} s, which is too coarse to join it "
+                       f"with the others by time; a clock that steps by {MOST_STEP_S:g} s or less will do")
+    for channel, values in recording.channels.items():
+        recording.channels[channel] = _means(values, first, channel.endswith("_deg"))
+    if recording.seconds is None:
+        recording.stamps = recording.stamps[first]
+    else:
+        recording.seconds = recording.seconds[first]
+    recording.warnings.append(f"{name}: {same}; rows of one time become their mean, one every {step_s:.3g} s")
 
 
 def align_clocks(recordings, mapping):

@@ -48,13 +48,13 @@ def _rows(recording):
 
 
 def understood(recordings):
-    """The table, in text of columns that line up."""
+    """The lines of the table, whose columns line up."""
     rows = [("table", "column", "unit", "rate_Hz", "range_in_log", "becomes")]
     for recording in recordings:
         rows += _rows(recording)
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
-                     for row in rows)
+    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
+            for row in rows]
 
 
 def _named(column):
@@ -80,4 +80,4 @@ def not_understood(recordings):
 
 
 def summary(pairs):
-    return "\n".join(f"{name:<14} {text}" for name, text in pairs)
+    return [f"{name:<14} {text}" for name, text in pairs]

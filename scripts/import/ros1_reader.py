@@ -126,12 +126,7 @@ class _Bag:
         if identity not in self.connections:
             raise ValueError("a message of a connection that is not defined")
         topic, kind, definitions = self.connections[identity]
-        if topic in self.topics.left_out:
-            return
-        try:
-            self.topics.add(topic, sec * 10**9 + nsec, _Message(content).whole(definitions, kind))
-        except cdr.UnknownType as unknown:
-            self.topics.leave_out(topic, f"{topic} needs the definition of {unknown}, which the bag lacks")
+        self.topics.add(topic, sec * 10**9 + nsec, lambda: _Message(content).whole(definitions, kind))
 
 
 def read(path):

@@ -37,6 +37,13 @@ def read(path):
         connection.close()
 
 
+def _blob(data):
+    """A column of SQLite holds whatever was put there, and bytes(12) are zeros."""
+    if not isinstance(data, bytes):
+        raise ValueError("a message is no blob")
+    return data
+
+
 def _tables(path, connection):
     definitions, topics = cdr.Definitions(), message_tables.Topics()
     # Rows of views and virtual tables are not in the file, and may have no end.
@@ -49,20 +56,16 @@ def _tables(path, connection):
         for kind, encoding, text in connection.execute(
                 "SELECT topic_type, encoding, encoded_message_definition "
                 "FROM message_definitions"):
-            if encoding == "ros2msg":
+            if encoding == "ros2msg" and isinstance(kind, str) and isinstance(text, str):
                 definitions.add(kind, text)
     types = {}
     for identity, topic, kind, form in connection.execute(
             "SELECT id, name, type, serialization_format FROM topics ORDER BY id"):
         types[identity] = topic, kind
         if form != "cdr":
-            topics.leave_out(topic, f"{topic} is in {form}, not in CDR")
+            topics.leave_out(topic, f"is in {form}, not in CDR")
     for identity, stamp, data in connection.execute("SELECT topic_id, timestamp, data FROM messages ORDER BY id"):
         topic, kind = types.get(identity, (None, None))
-        if topic is None or topic in topics.left_out:
-            continue
-        try:
-            topics.add(topic, stamp, cdr.decode(bytes(data), kind, definitions))
-        except cdr.UnknownType as unknown:
-            topics.leave_out(topic, f"{topic} needs the definition of {unknown}, which the bag lacks")
+        if topic is not None:
+            topics.add(topic, stamp, lambda: cdr.decode(_blob(data), kind, definitions))
     return topics.tables(path)

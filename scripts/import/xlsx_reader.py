@@ -23,7 +23,7 @@ def _rows(sheet, path):
     sheet.reset_dimensions()  # what the file says of them may be of any size
     rows, width = [], 0
     for number, row in enumerate(sheet.iter_rows(values_only=True), 1):
-        filled = max((i for i, value in enumerate(row, 1) if value not in (None, "")), default=0)
+        filled = max((i for i, value in enumerate(row, 1) if _text(value)), default=0)
         if filled > MOST_COLUMNS:
             raise BadInput(f"{path}: row {number} of '{shown(sheet.title)}' has more than {MOST_COLUMNS} cells")
         if filled:

@@ -87,13 +87,13 @@ class Node:
         found = "nothing" if value is None else f"'{shown(value)}'"
         self.fail(key, f"expected {expected}, found {found}{named}")
 
-    def text(self, key, allowed=None, default=None):
+    def text(self, key, allowed=None, default=None, expected="a text"):
         if allowed is None:
-            return self._checked(key, lambda v: isinstance(v, str) and v, "a text", default)
+            return self._checked(key, lambda v: isinstance(v, str) and v, expected, default)
         return self._checked(key, allowed.__contains__, "one of " + ", ".join(
             f"'{a}'" if a != "\t" else "tab" for a in allowed), default)
 
-    def number(self, key, default=None):
+    def number(self, key, default=None, allowed=lambda value: True, expected="a number"):
         if key not in self.values:
             return default
         value = self.plain(key)
@@ -102,8 +102,8 @@ class Node:
                 value = float(value)
             except ValueError:
                 pass
-        if not _is_number(value):
-            self._fail_expected(key, "a number", value, default)
+        if not _is_number(value) or not allowed(value):
+            self._fail_expected(key, expected, value, default)
         return float(value)
 
     def integer(self, key, least, most):

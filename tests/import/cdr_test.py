@@ -103,7 +103,7 @@ class CdrTest(ImportCase):
         message = {"header": HEADER, "name": ["a", "b"], "position": [1.0, 2.0],
                    "wrench": {"force": {"x": 3.0}}}
         topics = message_tables.Topics()
-        topics.add("/t", 5, message)
+        topics.add("/t", 5, lambda: message)
         table, = topics.tables("x.bag")
         cells = {c.name: (list(c.cells), c.unit) for c in table.columns}
         self.assertEqual(cells, {"time": ([1773237907123456789], "ns"), "position.a": ([1.0], ""),

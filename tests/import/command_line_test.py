@@ -130,6 +130,36 @@ class CommandLineTest(ImportCase):
         for path in pathlib.Path(import_log.__file__).parent.glob("*.py"):
             self.assertLess(len(path.read_text().splitlines()), 400, path)
 
+    def test_names_from_files_are_one_line_without_control_characters(self):
+        """Of files, columns and tables, in what is printed and in what is refused."""
+        rows = "".join(f"{0.01 * i},{0.1 * i},1\n" for i in range(9))
+        for name in ("a\nx.csv", "e\x1b[31mq.csv", "b\u202ec.csv"):
+            with self.subTest(name):
+                path = self.write(name, f"time_s,gauge_1_V,odd\x1b[31m\n{rows}")
+                done = self.call("--logs", path, "--out", self.folder / "log.csv")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(re.sub(r"[^ -~]", "?", name), done.stdout)
+                self.assertEqual(re.sub(r"[\n -~]", "", done.stdout + done.stderr), "")
+                self.assertEqual(done.stdout.count("\n"), 8, done.stdout)
+                done = self.call("--logs", self.folder / f"none{name}")
+                self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+                self.assertEqual(re.sub(r"[\n -~]", "", done.stderr), "")
+
+    def test_flags_and_mapping_have_one_rule(self):
+        path = self.write("a.csv", LOG)
+        for flag, key, value in (("longest_gap_s", "join: {longest_gap_s: ", "-1"), ("longest_gap_s", "join: {longest_gap_s: ", "0"),
+                                 ("shortest_plateau_s", "plateaus: {shortest_s: ", "1e-300"),
+                                 ("shortest_plateau_s", "plateaus: {shortest_s: ", "1e9")):
+            with self.subTest(f"{flag} {value}"):
+                more = ["--plateaus"] if "plateau" in flag else []
+                expected = self.refused("--logs", path, f"--{flag}", value, *more, code=1)
+                expected = expected[expected.index("expected"):expected.index(", found")]
+                line = self.refused("--logs", path, "--mapping", self.write("m.yaml", f"{key}{value}}}\n"))
+                self.assertIn(f"{expected}, found '", line)
+        for text, words in (("tables: {a.csv: {time_offset_s: 1e12}}\n", "time_offset_s: expected"),
+                            ("force: {free_s: [2, 1]}\n", "free_s: expected [first, last]")):
+            self.assertIn(words, self.refused("--logs", path, "--mapping", self.write("m.yaml", text)))
+
     def test_keys_of_a_mapping_without_a_value_name_their_place(self):
         path = self.write("a.csv", LOG)
         for text, where in (("columns:\n", "1:9: columns"), ("columns: {g: {to: }}\n", "1:18: to"),
@@ -141,6 +171,8 @@ class CommandLineTest(ImportCase):
                 line = self.refused("--logs", path, "--mapping", self.write("m.yaml", text))
                 self.assertIn(f"m.yaml:{where}", line)
                 self.assertTrue("found nothing" in line or "as a key" in line, line)
+                self.assertEqual("expected a mapping (header: column), or the name of a YAML file" in line,
+                                 where.endswith("columns"))
 
 
 if __name__ == "__main__":

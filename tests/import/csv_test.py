@@ -209,6 +209,10 @@ class DialectTest(ImportCase):
         self.assertIn("a.csv:3", line)
         self.assertIn("0 to 65535, found 65536", line)
 
+    def test_comments_may_be_long(self):
+        log = self.log_of_text("# " + "a, b; " * 20000 + "\ntime_s,gauge_1_V\n0,1\n1,2\n")
+        self.assertEqual(log["gauge_1_V"], ["1.0", "2.0"])
+
     def test_a_cut_last_cell_is_said(self):
         self.log_of_text(PLAIN[:-1])
         self.assertIn("its last cell may be cut", self.result.err)

@@ -57,7 +57,36 @@ class JoinTest(ImportCase):
         fine = self.write("f.csv", table(["time_s", "force_N"], [(0.01 * i, 0.1 * i) for i in range(400)]))
         coarse = self.write("g.csv", table(["time_s", "gauge_1_V"], [(i // 100, 0.1 * i) for i in range(400)]))
         line = self.refused("--logs", f"{fine},{coarse}")
-        self.assertIn("g.csv: 396 of the 400 rows of g.csv have the time of the row before", line)
+        self.assertIn("g.csv: 396 of the 400 rows of g.csv have the time of the row before: its clock steps by 1 s", line)
+
+    def test_readings_in_packets_become_their_mean(self):
+        """1 kHz stamped in packets of 4 ms, one reading of which is missing, joined with 100 Hz."""
+        slow, fast = 0.01 * np.arange(200), 0.001 * np.arange(2000)
+        gauges = self.write("g.csv", table(["time_s", "gauge_1_V"], np.stack((slow, 0.1 * slow), axis=1)))
+        rows = [f"{np.floor(t / 0.004 + 1e-9) * 0.004:.3f},{'' if i == 2 else repr(3 * t)}" for i, t in enumerate(fast)]
+        force = self.write("f.csv", "time_s,force_N\n" + "\n".join(rows) + "\n")
+        self.log_of("--logs", f"{gauges},{force}", "--force_bias_N", "0")
+        log = self.log_of("--logs", f"{gauges},{force}", "--force_time_offset_s", "0", "--force_bias_N", "0")
+        log = {name: np.array(cells, dtype=float) for name, cells in log.items()}
+        self.assertEqual(len(log["time_s"]), 200)
+        # A packet of 4 is stamped 1.5 ms before its mean; the first one lacks its third reading.
+        np.testing.assert_allclose(log["force_N"][1:], 3 * (log["time_s"][1:] + 0.0015), atol=1e-9)
+        self.assertAlmostEqual(log["force_N"][0], 3 * (0 + 1 + 3) / 3 * 0.001)
+        said = [line for line in self.result.err.splitlines() if "time of the row before" in line]
+        self.assertEqual(said, ["warning: f.csv: 1500 of the 2000 rows of f.csv have the time of the row before; rows of "
+                                "one time become their mean, one every 0.004 s"])
+
+    def test_rows_that_are_there_twice_are_no_coarse_clock(self):
+        """At 5 Hz, each row twice; and a gauge and a force in rows of their own."""
+        twice = [(0.2 * (i // 2), 0.1 * (i // 2)) for i in range(80)]
+        force = self.write("f.csv", table(["time_s", "force_N"], [(0.01 * i, 0.1 * i) for i in range(900)]))
+        flags = ["--force_time_offset_s", "0", "--force_bias_N", "0"]
+        log = self.log_of("--logs", f"{force},{self.write('g.csv', table(['time_s', 'gauge_1_V'], twice))}", *flags)
+        self.assertEqual(len(log["time_s"]), 40)
+        apart = "time_s,gauge_1_V,temperature_C\n" + "".join(f"{t},{v},\n{t},,20\n" for t, v in twice[::2])
+        apart = self.log_of("--logs", f"{force},{self.write('g.csv', apart)}", *flags)
+        self.assertEqual(apart["gauge_1_V"], log["gauge_1_V"])
+        self.assertEqual(set(apart["temperature_C"]), {"20.0"})
 
     def test_a_table_without_readings_tells_no_time_offset(self):
         force = self.write("f.csv", "time_s,force_N\n" + "".join(f"{i},\n" for i in range(99)))
@@ -161,6 +190,35 @@ class PlateauTest(ImportCase):
         self.assertLess(np.sqrt(np.mean(z**2)), 1.6)
         np.testing.assert_allclose(value["gauge_1_scatter_V"], 3e-4, rtol=0.2)
         self.assertTrue((value["gauge_readings"] > 200).all())
+
+    def test_axes_that_no_place_holds_two_readings_of(self):
+        """The axes of the sensor do not get into the log, whatever is known of their noise."""
+        draw = np.random.default_rng(3)
+        t = 0.01 * np.arange(2000)
+        gauge = 0.1 * (t // 0.8 % 3) + 1e-4 * draw.normal(size=len(t))
+        gauges = self.write("g.csv", table(["time_s", "gauge_1_V"], np.stack((t, gauge), axis=1)))
+        t = np.arange(20.0)
+        axes = self.write("f.csv", table(["time_s", "force_sensor_x_N", "force_sensor_y_N"],
+                                         np.stack((t, 3 * (t // 0.8 % 3), 4 * (t // 0.8 % 3)), axis=1)))
+        log = self.log_of("--logs", f"{gauges},{axes}", "--plateaus", "--force_time_offset_s", "0", "--force_bias_N", "0")
+        self.assertFalse([name for name in log if "sensor" in name])
+        self.assertTrue({"force_N", "force_readings", "force_scatter_N"} <= set(log))
+        self.assertIn("force_N is the size of noisy readings", self.result.err)
+        # A place that the sensor did not read at has no readings of it.
+        readings = np.array(log["force_readings"], dtype=float)
+        np.testing.assert_array_equal(readings, np.where([cell == "" for cell in log["force_N"]], 0, 1))
+        self.assertIn(0, readings)
+
+    def test_cells_that_are_not_measured_do_not_count_as_readings(self):
+        draw = np.random.default_rng(4)
+        t = 0.01 * np.arange(3000)
+        force = 0.1 * (t // 1.5 % 3)
+        lines = [f"{a:.2f},{f / 10 + 1e-4 * draw.normal():.6f},{f + 0.01 * draw.normal() if i % 10 == 0 else ''}"
+                 for i, (a, f) in enumerate(zip(t, force))]
+        log = self.log_of("--logs", self.write("a.csv", "time_s,gauge_1_V,force_N\n" + "\n".join(lines) + "\n"),
+                          "--plateaus", "--force_bias_N", "0")
+        gauges, forces = (np.array(log[f"{kind}_readings"], dtype=float) for kind in ("gauge", "force"))
+        self.assertLess(np.abs(gauges / forces - 10).max(), 3)
 
     def test_a_motion_without_rest_has_no_plateau(self):
         t = np.arange(0, 10, 0.01)

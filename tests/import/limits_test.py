@@ -7,6 +7,7 @@ import resource
 import sqlite3
 import struct
 import subprocess
+import time
 import unittest
 import zipfile
 import zlib
@@ -216,9 +217,15 @@ class LimitsTest(ImportCase):
         def take(_):
             return bytearray(2 << 30)
 
+        def wait(_):
+            time.sleep(100)
+
         least, before = limits.LEAST_SECONDS, resource.getrlimit(resource.RLIMIT_AS)
         self.addCleanup(setattr, limits, "LEAST_SECONDS", least)
-        limits.LEAST_SECONDS = 1
+        self.addCleanup(setattr, limits, "WAIT_RATIO", limits.WAIT_RATIO)
+        limits.LEAST_SECONDS, limits.WAIT_RATIO = 1, 2
+        with self.assertRaises(limits.TooLong):
+            isolated.call(wait, None, 0)
         with self.assertRaises(limits.TooLong):
             isolated.call(compute, None, 0)
         with self.assertRaises(MemoryError):

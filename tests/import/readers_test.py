@@ -2,6 +2,7 @@
 """Every format gives the log of the CSV, to the byte; broken and cut files get one line."""
 
 import importlib.util
+import os
 import random
 import sqlite3
 import struct
@@ -134,6 +135,81 @@ class ReadersTest(ImportCase):
                 np.testing.assert_allclose(np.array(log["gauge_1_V"], dtype=float),
                                            2 * np.array(log["time_s"], dtype=float), atol=1e-12)
                 self.assertIn(f"a.{end}:rig: 30 rows", self.result.out)
+
+    def test_a_row_of_blanks_in_a_workbook_is_none(self):
+        try:
+            import openpyxl
+        except ImportError as error:
+            self.skipTest(str(error))
+        book = openpyxl.Workbook()
+        for row in (["time_s", "gauge_1_V"], [0.0, 0.1], [None, " "], [0.1, 0.2]):
+            book.active.append(row)
+        book.save(self.folder / "a.xlsx")
+        self.assertEqual(self.log_of("--logs", self.folder / "a.xlsx")["gauge_1_V"], ["0.1", "0.2"])
+
+    def test_hdf5_reads_no_other_file_and_follows_links_within(self):
+        try:
+            import h5py
+        except ImportError as error:
+            self.skipTest(str(error))
+        t = 0.01 * np.arange(100)
+        os.mkfifo(self.folder / "fifo")  # who opens it waits for ever
+        (self.folder / "secret").write_bytes(b"secret" * 100)
+        layout = h5py.VirtualLayout((100,), "f8")
+        layout[:] = h5py.VirtualSource(str(self.folder / "fifo"), "a", (100,))
+        cases = {
+            "root": (lambda file: file.__setitem__("self", file["/"]), None),
+            "soft": (lambda file: file.__setitem__("force_N", h5py.SoftLink("/rig/Fz")), None),
+            "dangling": (lambda file: file.__setitem__("force_N", h5py.SoftLink("/none/Fz")), "force_N is a link"),
+            "circle": (lambda file: file.__setitem__("force_N", h5py.SoftLink("/force_N")), "force_N is a link"),
+            "link": (lambda file: file.__setitem__("force_N", h5py.ExternalLink(str(self.folder / "fifo"), "/a")), "force_N is a link"),
+            "storage": (lambda file: file.create_dataset("force_N", (100,), "u1", external=[
+                (str(self.folder / "secret"), 0, 100)]), "the readings of force_N are in another file"),
+            "fifo": (lambda file: file.create_dataset("force_N", (100,), "u1", external=[
+                (str(self.folder / "fifo"), 0, 100)]), "the readings of force_N are in another file"),
+            "virtual": (lambda file: file.create_virtual_dataset("force_N", layout), "the readings of force_N are in another file"),
+        }
+        for name, (add, words) in cases.items():
+            with self.subTest(name), h5py.File(self.folder / f"{name}.h5", "w") as file:
+                file["time_s"], file["gauge_1_V"] = t, 0.1 * t
+                if name == "soft":
+                    file["rig/Fz"] = 2 * t
+                add(file)
+                file.close()
+                log = self.log_of("--logs", self.folder / f"{name}.h5", "--force_bias_N", "0")
+                self.assertEqual("force_N" in log, name == "soft")
+                self.assertEqual(len(log["gauge_1_V"]), 100)
+                self.assertIn(words or "", self.result.err)
+
+    def test_a_topic_with_a_bad_message_does_not_lose_the_others(self):
+        good = [(samples.EPOCH_S * 10**9 + i * 10**7, [0.1 * i, 0.2, 0.3]) for i in range(9)]
+        mapping = self.write("m.yaml", "columns: {data_1: gauge_1_V}\n")
+        connections = [("/g", "std_msgs/Float64MultiArray", ros1_bag.ARRAY), ("/bad", "std_msgs/Float64MultiArray", ros1_bag.ARRAY),
+                       ("/odd\x1b[31m\n", "lab/Own", "float64[x] a\n")]
+        bag = ros1_bag.bag(connections, [(0, ns, ros1_bag.array(v)) for ns, v in good] +
+                           [(1, ns, ros1_bag.array(v)) for ns, v in good] + [(1, 5, b"\1"), (2, 5, b"\1")])
+        self.write("a.bag", bag)
+        base = sqlite3.connect(self.folder / "a.db3")
+        base.executescript("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT);"
+                           "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)")
+        for i, topic in enumerate(("/g", "/cut", "/number", "/time", "/odd\x1b[31m\n"), 1):
+            base.execute("INSERT INTO topics VALUES(?, ?, ?, 'cdr')", (i, topic, samples.ARRAY))
+            for ns, values in good:
+                base.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", (i, ns, samples.cdr_array(values)))
+        for i, ns, data in ((2, 5, b"\0\1\0\0\1"), (3, 5, 12), (4, "soon", samples.cdr_array([1.0])), (5, 5, "text")):
+            base.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", (i, ns, data))
+        base.commit()
+        base.close()
+        for name, words in (("a.bag", ("/bad has a message that cannot be read, its number 10",)),
+                            ("a.db3", ("/cut has a message that cannot be read, its number 10", "/number has a message that "
+                                       "cannot be read, its number 10: a message is no blob", "/time has"))):
+            with self.subTest(name):
+                result = self.run_import("--logs", self.folder / name, "--mapping", mapping, "--out", self.folder / "o.csv")
+                self.assertEqual(result.code, 0, result.err)
+                self.assertEqual((self.folder / "o.csv").read_text().count("\n"), 10)
+                for text in (*words, "/odd?[31m? has"):
+                    self.assertIn(text, result.err)
+                self.assertNotIn("\x1b", result.out + result.err)
 
     def every_format(self):
         for form, write in {**samples.PLAIN, **samples.BAGS}.items():
