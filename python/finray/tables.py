@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import decimal
 import importlib
+import numbers
 import os
 from typing import Any, Dict, Iterable, List, Mapping, Tuple, Union
 
@@ -29,13 +31,23 @@ def _is_missing(value: Any) -> bool:
         isinstance(value, (float, np.datetime64, np.timedelta64)) and value != value)
 
 
+def _of_objects(name: str, array: Any) -> Union[Floats, None]:
+    """The doubles of objects that are real numbers or missing; None if one is neither."""
+    real = (numbers.Real, np.bool_, decimal.Decimal)
+    if not all(_is_missing(value) or isinstance(value, real) for value in array):
+        return None
+    try:
+        return np.array([np.nan if _is_missing(value) else float(value) for value in array])
+    except OverflowError:
+        raise InputError(f"column '{name}': expected numbers that a double holds") from None
+
+
 def _numbers(name: str, values: Any) -> Union[Floats, None]:
     """The doubles of values, NaN where they are masked or missing; None if they are no numbers."""
     dtype: Any = getattr(values, "dtype", None)
     if hasattr(dtype, "kind") and not isinstance(dtype, np.dtype):  # an extension type of pandas
-        if dtype.kind not in "fiub":
-            return None
-        values = values.to_numpy(dtype=np.float64, na_value=np.nan)
+        if dtype.kind in "fiub":
+            values = values.to_numpy(dtype=np.float64, na_value=np.nan)
     try:
         array: Any = values if isinstance(values, np.ma.MaskedArray) else np.asarray(values)
     except Exception as error:  # whatever __array__ of another library raises
@@ -44,6 +56,8 @@ def _numbers(name: str, values: Any) -> Union[Floats, None]:
         raise InputError(f"column '{name}': expected a one-dimensional array, found one with {array.ndim} dimensions")
     if array.dtype.kind in "cV":
         raise InputError(f"column '{name}': expected real numbers or text, found {array.dtype}")
+    if array.dtype.kind == "O":
+        return _of_objects(name, array)
     if array.dtype.kind not in "fiub":
         return None
     if isinstance(array, np.ma.MaskedArray):
@@ -65,31 +79,47 @@ def floats_of(name: str, values: Any) -> Floats:
     Traceback (most recent call last):
     finray.errors.InputError: column 'gauges_V': expected real numbers or text, found complex128
     """
-    numbers = _numbers(name, values)
-    if numbers is None:
+    found = _numbers(name, values)
+    if found is None:
         raise InputError(f"column '{name}': expected numbers, found text")
-    return numbers
+    return found
+
+
+def _utf8(text: str) -> str:
+    """The text without halves of surrogate pairs, which are no UTF-8."""
+    return text.encode("utf-8", "replace").decode("utf-8")
 
 
 def _column(name: str, values: Any) -> Union[Floats, List[str]]:
-    numbers = _numbers(name, values)
-    if numbers is not None:
-        return numbers
+    found = _numbers(name, values)
+    if found is not None:
+        return found
     texts = np.char.decode(values, "utf-8", "replace") if np.asarray(values).dtype.kind == "S" else values
-    return ["" if _is_missing(value) else str(value) for value in texts]
+    return ["" if _is_missing(value) else _utf8(str(value)) for value in texts]
+
+
+def _holds_numbers(name: str) -> bool:
+    """Whether the library knows a column of this name as one of numbers."""
+    try:
+        _finray.Table({name: ["text"]}, "")
+    except InputError:
+        return True
+    return False
 
 
 def _table(columns: Iterable[Tuple[Any, Any]], name: str) -> _finray.Table:
     table: dict[str, Any] = {}
     told = {}  # what a column of text was
     for key, values in columns:
-        if str(key) in table:
-            raise InputError(f"{name}: two columns '{key}'")
+        column = _utf8(str(key))
+        if column in told:
+            raise InputError(f"{name}: two columns '{column}'")
+        told[column] = getattr(values, "dtype", None)
         try:
-            table[str(key)] = _column(str(key), values)
+            table[column] = _column(column, values)
         except InputError as error:
-            raise InputError(f"{name}: {error}") from None
-        told[str(key)] = getattr(values, "dtype", None)
+            if _holds_numbers(column):  # else nobody uses it, and it is left out
+                raise InputError(f"{name}: {error}") from None
     try:
         return _finray.Table(table, name)
     except InputError as error:

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Arrays of any layout: each column is read as the doubles that numpy.asarray(values, float64) holds, or refused by name."""
+import decimal
 import unittest
 import warnings
 
@@ -117,11 +118,12 @@ class ArraysTest(unittest.TestCase):
                               (1.0, "'gauge_1_V': expected a one-dimensional array, found one with 0"),
                               (np.zeros(3, "V4"), "'gauge_1_V': expected real numbers or text"),
                               (np.zeros(3, "f8,f8"), "'gauge_1_V': expected real numbers or text"),
-                              (ones.astype("O"), r"'gauge_1_V'.* holds numbers, found text \(dtype object\)"),
+                              (np.array([1.0, "2", 3], "O"), r"'gauge_1_V'.* holds numbers, found text \(dtype object\)"),
                               (ones.astype("U"), "'gauge_1_V'.* holds numbers, found text"),
                               (ones.astype("S"), "'gauge_1_V'.* holds numbers, found text"),
                               (["1", "2", "3"], "'gauge_1_V'.* holds numbers, found text"),
-                              ([1.0, None, 2.0], "'gauge_1_V'.* holds numbers, found text"),
+                              ([1.0, None, "2"], "'gauge_1_V'.* holds numbers, found text"),
+                              ([1.0, None, 10**400], "'gauge_1_V': expected numbers that a double holds"),
                               (ones.astype("M8[s]"), r"'gauge_1_V'.* holds numbers, found text \(dtype datetime64"),
                               (ones.astype("m8[s]"), r"'gauge_1_V'.* holds numbers, found text \(dtype timedelta64")):
             self.assert_refused({"gauge_1_V": values}, "the log: column " + words)
@@ -135,6 +137,18 @@ class ArraysTest(unittest.TestCase):
                       "when": np.array(["2026-01-02", "NaT"], "M8[D]")})
         self.assertEqual({name: values.tolist() for name, values in read.items()},
                          {"note": ["a", "ä"], "mixed": ["x", ""], "when": ["2026-01-02", ""]})
+
+    def test_objects_that_are_numbers(self):
+        self.assert_same([None, 0.01, 0.01], [np.nan, 0.01, 0.01])
+        self.assert_same([None, None], [np.nan, np.nan])
+        self.assert_same(np.array([1, 2.5, True, np.float32(3), decimal.Decimal("0.5")], object), [1, 2.5, 1, 3, 0.5])
+        self.assert_same(np.ma.array([1, "x"], mask=[False, True], dtype=object), [1, np.nan])
+
+    def test_columns_that_nobody_uses_refuse_no_log(self):
+        ones = np.ones(3)
+        for values in (ones + 1j, np.zeros(3, "V4"), np.zeros((3, 2)), 1.0, [10**400, 1, None]):
+            self.assertEqual(list(table({"time_s": ones, "mine": values})), ["time_s"])
+        self.assertEqual(table({"note": ["\udc80", "a"], "\udc80": [1.0, 2.0]})["note"].tolist(), ["?", "a"])
 
     def test_live_readings(self):
         finger = finray.paper_finger()
@@ -150,9 +164,11 @@ class ArraysTest(unittest.TestCase):
         live.restart()
         masked = np.ma.array(row, mask=[False, True, False, False])
         self.assertEqual(repr(live.next(masked)), repr(without))
+        live.restart()
+        self.assertEqual(repr(live.next((row[0], None, row[2], row[3]))), repr(without))
         for values, words in ((row + 0j, "gauges_V.*complex128"), (row[None, :], "gauges_V.*one-dimensional"),
                               (["1", "2", "3", "4"], "gauges_V.*expected numbers, found text"),
-                              ([0.1, None, 0.1, 0.1], "gauges_V.*expected numbers, found text")):
+                              ([0.1, None, "0.1", 0.1], "gauges_V.*expected numbers, found text")):
             with self.assertRaisesRegex(finray.InputError, words):
                 live.next(values)
 
@@ -173,9 +189,11 @@ class ArraysTest(unittest.TestCase):
         self.assert_same(pandas.Series([0, 1.5, 0], dtype=pandas.SparseDtype(float)), [0, 1.5, 0])
         self.assert_same(pandas.Series([1.5, 2.5], index=[7, 3]), [1.5, 2.5])
         self.assertTrue(np.shares_memory(table(plain)["gauge_1_V"], plain["gauge_1_V"].to_numpy()))
-        for series, words in ((pandas.Series([1.5, 2.5]).astype("category"), r"found text \(dtype category\)"),
+        self.assert_same(pandas.Series([1.5, None, 1.5]).astype("category"), [1.5, np.nan, 1.5])
+        self.assert_same(pandas.Series([1.5, pandas.NA, 2], dtype=object), [1.5, np.nan, 2])
+        for series, words in ((pandas.Series(["1", "2"]).astype("category"), r"found text \(dtype category\)"),
                               (pandas.Series(["1", "2"], dtype="string"), r"found text \(dtype string\)"),
-                              (pandas.Series([1.5, None], dtype=object), r"found text \(dtype object\)"),
+                              (pandas.Series([1.5, "2"], dtype=object), r"found text \(dtype object\)"),
                               (pandas.to_datetime(pandas.Series([1, 2])), r"found text \(dtype datetime64"),
                               (pandas.Series([1j, 2]), "found complex128")):
             for log in ({"gauge_3_V": series}, pandas.DataFrame({"gauge_3_V": series})):
