@@ -18,6 +18,7 @@ guard.protect("draw_finger.py", __name__)
 
 sys.path.insert(0, str(ROOT / "calib" / "report"))
 
+import whole_file
 from finger_drawing import BEAM, FORCE, GAUGE, INK, QUIET, RIB, Drawing
 
 L0, PHI0 = 140.0, math.radians(112)
@@ -102,7 +103,7 @@ def main():
     target = pathlib.Path(*guard.words(__doc__, 0, 1) or [ROOT / "docs" / "pictures" / "finger.svg"])
     drawing = Drawing(L0, PHI0, scale=4.0, left=250.0, top=60.0)
     draw(drawing)
-    target.write_text(drawing.svg(620, 660, "A Fin-Ray finger and its conventions"), "utf-8")
+    whole_file.write(target, drawing.svg(620, 660, "A Fin-Ray finger and its conventions"))
 
 
 if __name__ == "__main__":

@@ -17,6 +17,9 @@ import guard  # noqa: E402
 guard.protect("draw_layers.py", __name__)
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.append(str(ROOT / "calib/report"))
+import whole_file  # noqa: E402
+
 INCLUDE = re.compile(r'#include "finray/([^"\n]*)/[^/"\n]+"')
 
 # From top to bottom; a room may include rooms of the rows below it only.
@@ -121,7 +124,7 @@ def main():
     found = [*faults(rooms), *late_stages(), *peeks()]
     print("\n".join(found), end="\n" if found else "")
     target = pathlib.Path(*given or [ROOT / "docs/pictures/layers.svg"])
-    target.write_text(picture(ceres), encoding="utf-8")
+    whole_file.write(target, picture(ceres))
     return 1 if found else 0
 
 
