@@ -200,13 +200,22 @@ class ReadersTest(ImportCase):
             base.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", (i, ns, data))
         base.commit()
         base.close()
-        for name, words in (("a.bag", ("/bad has a message that cannot be read, its number 10",)),
+        end, more = samples._record(15, struct.pack("<I", 0)), b""
+        topics = (("/bad", b"[1"), ("/deep", b"[" * 100000), ("/huge", b'{"a": 1e999, "b": 1%s}' % (b"0" * 400)),
+                  ("/stamp", b'{"header": {"stamp": {"sec": [], "nanosec": 1}}}'), ("/odd\x1b[31m\n", b"\xff"))
+        for i, (topic, data) in enumerate(topics, 2):
+            more += samples._record(4, struct.pack("<HH", i, 0) + ros1_bag.text(topic) + ros1_bag.text("json") + struct.pack("<I", 0))
+            more += samples._record(5, struct.pack("<HIQQ", i, 0, 5, 5) + data)
+        head, _, tail = samples.mcap_bytes().rpartition(end)
+        self.write("a.mcap", head + more + end + tail)
+        for name, words in (("a.mcap", [f"{topic} has a message that cannot be read, its number 1: " for topic, _ in topics[:4]]),
+                            ("a.bag", ("/bad has a message that cannot be read, its number 10",)),
                             ("a.db3", ("/cut has a message that cannot be read, its number 10", "/number has a message that "
                                        "cannot be read, its number 10: a message is no blob", "/time has"))):
             with self.subTest(name):
                 result = self.run_import("--logs", self.folder / name, "--mapping", mapping, "--out", self.folder / "o.csv")
                 self.assertEqual(result.code, 0, result.err)
-                self.assertEqual((self.folder / "o.csv").read_text().count("\n"), 10)
+                self.assertEqual((self.folder / "o.csv").read_text().count("\n"), samples.ROWS + 1 if "mcap" in name else 10)
                 for text in (*words, "/odd?[31m? has"):
                     self.assertIn(text, result.err)
                 self.assertNotIn("\x1b", result.out + result.err)
