@@ -10,6 +10,7 @@
 #include "calib/recorded_log.h"
 #include "finray/calib/analysis/plausibility.h"
 #include "finray/io/error.h"
+#include "finray/io/nan.h"
 
 namespace finray {
 namespace {
@@ -79,6 +80,17 @@ TEST(GaugeChangesTest, NamesTheRowOfAJump) {
         AllOf(HasSubstr("log.csv row 10"), HasSubstr("gauge_1_V jumps"),
               HasSubstr("gauge_4_V jumps")));
   }
+}
+
+// Two readings are no line, however many rows there are.
+TEST(GaugeChangesTest, FewReadingsBeforeAreNoJump) {
+  EXPECT_THAT(RefusalAfter(CleanTouches(),
+                           [](std::size_t row, std::array<double, 4>* volts) {
+                             if (row >= 40) return;
+                             const bool read = row == 28 || row == 29;
+                             (*volts)[1] = read ? 2 : kNaN;
+                           }),
+              IsEmpty());
 }
 
 TEST(GaugeChangesTest, NamesTheRowOfAnotherGain) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -29,6 +30,7 @@ struct Line {
   double slope() const { return aa > 0 ? va / aa : 0; }
   double rest() const { return aa > 0 ? std::max(0.0, vv - va * va / aa) : vv; }
   double range() const { return highest - lowest; }
+  bool enough() const { return count >= static_cast<int>(kLeastFrames); }
   bool bends() const { return aa > kLeastBend * kLeastBend * count; }
 };
 
@@ -88,6 +90,7 @@ class ChangesOfLog {
          ++k) {
       const Line before = LineOf(frames_, 0, k, reading, reading);
       const Line after = LineOf(frames_, k, frames_.size(), reading, reading);
+      if (!before.enough() || !after.enough()) continue;
       const double ratio = one / (Sum(before, reading) + Sum(after, reading));
       if (ratio > best.ratio) best = {k, before, after, ratio};
     }
@@ -190,8 +193,15 @@ class ChangesOfLog {
     double least = std::min(own, others) / (kExchangeShare * kExchangeShare);
     std::optional<std::size_t> at;
     for (std::size_t k = kLeastFrames; k + kLeastFrames <= n; ++k) {
-      const double both =
-          sum(0, k, j, j) + sum(0, k, m, m) + sum(k, n, j, m) + sum(k, n, m, j);
+      const Line lines[] = {
+          LineOf(frames_, 0, k, j, j), LineOf(frames_, 0, k, m, m),
+          LineOf(frames_, k, n, j, m), LineOf(frames_, k, n, m, j)};
+      if (!std::all_of(std::begin(lines), std::end(lines),
+                       [](const Line& line) { return line.enough(); })) {
+        continue;
+      }
+      const double both = Sum(lines[0], j) + Sum(lines[1], m) +
+                          Sum(lines[2], j) + Sum(lines[3], m);
       if (both < least) {
         least = both;
         at = k;
@@ -241,7 +251,7 @@ void RefuseCoarserStepsOf(const Series& series, const std::string& log,
   constexpr std::size_t kLooked = 20;
   if (series.size() < 2 * kLooked) return;
   const auto looked = static_cast<std::ptrdiff_t>(kLooked);
-  const double least = kCoarse * noise_V;
+  const double least = GaugeFaultFinder::kCoarseStep * noise_V;
   const auto before = StepIn(series.begin(), series.begin() + looked, least);
   const auto after = StepIn(series.end() - looked, series.end(), least);
   if (before.has_value() == after.has_value()) return;
@@ -302,6 +312,15 @@ std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
     if (!faults.empty()) found[log] = std::move(faults);
   }
   return found;
+}
+
+std::string WordsOf(const std::vector<GaugeFault>& faults, bool steps) {
+  std::string words;
+  for (const GaugeFault& fault : faults) {
+    if ((fault.kind == GaugeFault::Kind::kCoarse) != steps) continue;
+    words += (words.empty() ? "" : ", ") + fault.words;
+  }
+  return words;
 }
 
 }  // namespace finray

@@ -2,6 +2,7 @@
 #define FINRAY_CALIB_ANALYSIS_GAUGE_CHANGES_H_
 
 #include <map>
+#include <string>
 #include <vector>
 
 #include "finray/calib/analysis/gauge_plausibility.h"
@@ -25,8 +26,8 @@ namespace finray {
 ///    and each fits with less than kLeftOver of its variance left;
 ///  - a gain changes: S of one line is kGainShare^2 times that of both, which
 ///    fit as well, and the slopes differ by a factor of kGainChange or more.
-/// Says nothing of fewer than kLeastFrames frames on one side, or where these
-/// hardly bend a gauge.
+/// Says nothing of a gauge with fewer than kLeastFrames readings on one side,
+/// or where these frames hardly bend it.
 void RefuseGaugeChanges(const std::vector<ExpectedGauges>& frames,
                         const CalibrationLogs& logs, const Finger& finger);
 constexpr double kJumpShare = 5, kExchangeShare = 3, kGainShare = 2,
@@ -34,14 +35,17 @@ constexpr double kJumpShare = 5, kExchangeShare = 3, kGainShare = 2,
 
 /// Throws InputError with the row from which on, or before which, the converter
 /// of a gauge has coarser steps: all differences of readings are multiples of a
-/// step of more than kCoarse noise_V there, and not elsewhere.
+/// step of more than GaugeFaultFinder::kCoarseStep noise_V there, and not
+/// elsewhere.
 void RefuseCoarserSteps(const CalibrationLogs& logs, const Finger& finger);
-constexpr double kCoarse = 3;
 
 /// The faults of gauges by log, without the rows of a bench. Logs without any
 /// are left out.
 std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
     const CalibrationLogs& logs, const Finger& finger);
+
+/// The words of the faults that are steps of converters, or of all others.
+std::string WordsOf(const std::vector<GaugeFault>& faults, bool steps);
 
 }  // namespace finray
 

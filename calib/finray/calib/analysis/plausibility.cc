@@ -110,11 +110,7 @@ void RefuseImpossibleBends(const FramesOfLogs& frames, const Finger& finger) {
 void RefuseFaultyGauges(const CalibrationProblem& problem) {
   for (const auto& [log, faults] :
        FindGaugeFaults(problem.logs(), problem.finger())) {
-    std::string words;
-    for (const GaugeFault& fault : faults) {
-      if (fault.kind == GaugeFault::Kind::kCoarse) continue;
-      words += (words.empty() ? "" : ", ") + fault.words;
-    }
+    const std::string words = WordsOf(faults, false);
     if (words.empty()) continue;
     throw InputError("logs: " + problem.logs().names[log] + ": " + words +
                      ": check its wiring, its range and its column; leave "
