@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
 
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/solve/robust_solve.h"
@@ -13,7 +14,9 @@ namespace {
 // Frees nothing but where each log's stage is.
 Plan StageOnly(const Plan& plan) {
   Plan only = plan;
-  only.families = {};
+  for (int i = 0; i < kParameterFamilies; ++i) {
+    only.Fix(static_cast<ParameterFamily>(i));
+  }
   only.holdout_by = HoldoutBy::kNothing;
   for (const ParameterFamily which :
        {ParameterFamily::kObjectOrigin, ParameterFamily::kObjectRotation}) {
@@ -59,7 +62,12 @@ std::vector<FittedStage> AlignStages(const Finger& finger, const Plan& plan,
   }
   CalibrationProblem problem(finger, StageOnly(plan), aligned, discretization,
                              threads);
-  const CalibrationSolution solution = SolveRobustly(&problem);
+  CalibrationSolution solution;
+  try {
+    solution = SolveRobustly(&problem);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
   if (!solution.solve.converged || solution.outliers_too_many) return {};
   const Identifiability found = AnalyzeIdentifiability(&problem, solution.at);
   if (IsUnexplained(found)) return {};

@@ -28,10 +28,11 @@ struct FittedStage {
 /// left there is error of the finger.
 ///
 /// Returns the logs that were aligned: none if the plan does not free
-/// object_origin, its scene has no circle, the fit does not converge, or it
-/// leaves too many frames unexplained (Outliers::too_many) or residuals of more
-/// than 5 std rms. A log
-/// with fewer than kFewestAligned places of a touching object stays as it is.
+/// object_origin, its scene has no circle, the fit fails or does not converge,
+/// or it leaves too many frames unexplained
+/// (CalibrationSolution::outliers_too_many) or residuals of more than 5 std
+/// rms. A log with fewer than kFewestAligned places of a touching object stays
+/// as it is.
 std::vector<FittedStage> AlignStages(const Finger& finger, const Plan& plan,
                                      const Discretization& discretization,
                                      int threads, CalibrationLogs* logs);

@@ -147,6 +147,11 @@ const char* PriorKeyOf(ParameterFamily family) {
   return kFamilyKeys[static_cast<int>(family)].prior_key;
 }
 
+void Plan::Fix(ParameterFamily which) {
+  families[static_cast<int>(which)] = {};
+  if (which == ParameterFamily::kGaugeDrift) gauge_walk.reset();
+}
+
 bool Plan::HasCreep(const Finger& finger) const {
   return family(ParameterFamily::kGaugeCreepShare).free ||
          family(ParameterFamily::kGaugeCreepTime).free ||

@@ -115,6 +115,8 @@ struct Plan {
   const FamilyPlan& family(ParameterFamily which) const {
     return families[static_cast<int>(which)];
   }
+  /// Varies the family no more.
+  void Fix(ParameterFamily which);
   /// Says that the plan varies where gauges start or how long they are.
   bool MovesGauges() const {
     return family(ParameterFamily::kGaugeStart).free ||

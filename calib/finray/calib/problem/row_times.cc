@@ -58,8 +58,7 @@ std::vector<ParameterFamily> WithoutTimes(const Plan& plan,
 
 Plan WithTimesOf(Plan plan, const CalibrationLogs& logs) {
   for (const ParameterFamily family : WithoutTimes(plan, logs)) {
-    plan.families[static_cast<int>(family)] = {};
-    if (family == ParameterFamily::kGaugeDrift) plan.gauge_walk.reset();
+    plan.Fix(family);
   }
   return plan;
 }
