@@ -61,16 +61,17 @@ class CalibrateTest(unittest.TestCase):
                 csv.writer(file).writerows([header, *written])
         once = self.calibrated(TRAIN)[2]
         self.assertFalse([w for w in once["warnings"] if w["code"] == "rows_written_twice"])
-        second = {"each.csv": "each.csv row 2 those of each.csv row 1", "later.csv": "later.csv row 2 those of later.csv row 1",
-                  "whole.csv": "whole.csv row 211 those of whole.csv row 1", "after.csv": "after.csv row 211 those of after.csv row 1"}
-        second[f"{TRAIN},{self.folder}/each.csv"] = "each.csv row 1 those of train.csv row 1"
+        second = {"each.csv": "each.csv row 2, which repeats each.csv row 1", "later.csv": "later.csv row 2, which repeats later.csv row 1",
+                  "whole.csv": "whole.csv row 211, which repeats whole.csv row 1", "after.csv": "after.csv row 211, which repeats after.csv row 1"}
+        second[f"{TRAIN},{self.folder}/each.csv"] = "each.csv row 1, which repeats train.csv row 1"
         for logs, words in second.items():
             with self.subTest(logs):
                 code, errors, found = self.calibrated(logs)
                 self.assertEqual(code, 0, errors)
-                self.assertIn(f"rows have all the numbers of an earlier row, first {words}; they count once", errors)
+                self.assertIn(f"rows have all the numbers of an earlier row, the first of them {words}; they count once", errors)
                 self.assertEqual(found["parameters"], once["parameters"])
         self.assertIn("; nothing is left of each.csv", errors)
+        self.assertEqual([log["path"] for log in found["inputs"]["left_out"]], [f"{self.folder}/each.csv"])
 
     def test_noise_told_twice_too_large_is_not_good(self):
         finger = self.folder / "loud.yaml"

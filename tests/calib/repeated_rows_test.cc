@@ -43,6 +43,23 @@ Repetition Solve(const FrameTable& log) {
   return solved;
 }
 
+// A log that is a copy as a whole is an input all the same.
+TEST(RepeatedRowsTest, ACopyOfALogIsLeftOut) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 3);
+  const std::string copy = folder.Path("copy.csv");
+  FrameTable::Read(log).Write(copy);
+  const CalibrationLogs logs =
+      ReadCalibrationLogs({log, copy}, Nominal(), StandardPlan());
+  EXPECT_EQ(logs.paths, std::vector<std::string>{log});
+  EXPECT_EQ(logs.left_out, std::vector<std::string>{copy});
+  EXPECT_EQ(
+      logs.copies,
+      "210 of 420 rows have all the numbers of an earlier row, the first of "
+      "them copy.csv row 1, which repeats log.csv row 1; they count once; "
+      "nothing is left of copy.csv");
+}
+
 // A pasted row tells nothing new: the estimates and their std stay.
 TEST(RepeatedRowsTest, PastedRowsCountOnce) {
   const TempFolder folder;

@@ -62,6 +62,8 @@ struct CalibrationLogs {
   /// Says which rows were written twice and are left out (repeated_rows.h);
   /// empty if there are none.
   std::string copies;
+  /// The paths of logs of which nothing is left then.
+  std::vector<std::string> left_out;
 
   /// Says for each log whether all its rows are held out.
   std::vector<bool> HeldOut() const;

@@ -197,11 +197,12 @@ void LeaveOutCopies(std::vector<std::vector<double>> times_s,
     kept.push_back(frame);
   }
   if (first < frames.size()) {
-    logs->copies = FormatText("%zu of %zu rows", frames.size() - kept.size(),
-                              frames.size()) +
-                   " have all the numbers of an earlier row, first " +
-                   words_of(frames[first]) + " those of " +
-                   words_of(frames[copy_of[first]]) + "; they count once";
+    logs->copies =
+        FormatText("%zu of %zu rows", frames.size() - kept.size(),
+                   frames.size()) +
+        " have all the numbers of an earlier row, the first of them " +
+        words_of(frames[first]) + ", which repeats " +
+        words_of(frames[copy_of[first]]) + "; they count once";
     frames = std::move(kept);
   }
   std::vector<int> new_log(logs->paths.size());
@@ -211,6 +212,7 @@ void LeaveOutCopies(std::vector<std::vector<double>> times_s,
     new_log[log] = left;
     if (rows_left[log] == 0 && !times_s[log].empty()) {
       logs->copies += "; nothing is left of " + logs->names[log];
+      logs->left_out.push_back(logs->paths[log]);
       continue;
     }
     logs->paths[left] = logs->paths[log];

@@ -129,9 +129,13 @@ void EmitInputs(const CalibrationLogs& logs, const std::string& columns_path,
   emit("finger", inputs.finger_path);
   emit("plan", inputs.plan_path);
   if (!columns_path.empty()) emit("columns", columns_path);
-  EmitSeq(yaml, "logs", logs.paths, [&](const std::string& path) {
+  const auto emit_log = [&](const std::string& path) {
     YamlLine(yaml, "path", path, "sha256", inputs.Sha256Of(path));
-  });
+  };
+  EmitSeq(yaml, "logs", logs.paths, emit_log);
+  if (!logs.left_out.empty()) {
+    EmitSeq(yaml, "left_out", logs.left_out, emit_log);
+  }
   *yaml << YAML::EndMap;
 }
 
