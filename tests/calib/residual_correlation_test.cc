@@ -24,6 +24,14 @@ std::vector<double> Series(int n, double phi, std::mt19937_64* generator) {
   return series;
 }
 
+// Where the analysis has failed there is none.
+TEST(ResidualCorrelationTest, WithoutAnEnlargementTheStdStay) {
+  Identifiability found;
+  found.std = found.bounded_std = {1, 2};
+  EnlargeStd({}, &found);
+  EXPECT_EQ(found.std, (std::vector<double>{1, 2}));
+}
+
 TEST(ResidualCorrelationTest, IntegratedTimeOfAnAutoregression) {
   std::mt19937_64 generator(1);
   for (const double phi : {0.5, 0.8, 0.9}) {

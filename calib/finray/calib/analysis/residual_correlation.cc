@@ -129,6 +129,7 @@ ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& all,
 }
 
 void EnlargeStd(const ResidualCorrelation& by, Identifiability* found) {
+  if (!by.enlarges()) return;
   for (std::size_t i = 0; i < found->std.size(); ++i) {
     found->std[i] *= by.enlargement[i];
     found->bounded_std[i] *= by.enlargement[i];

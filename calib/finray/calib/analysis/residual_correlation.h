@@ -82,7 +82,7 @@ ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& logs,
                                                const Linearization& at_solution,
                                                const Identifiability& found);
 
-/// Multiplies the std. Correlations stay.
+/// Multiplies the std, if they are to be enlarged. Correlations stay.
 void EnlargeStd(const ResidualCorrelation& by, Identifiability* found);
 
 }  // namespace finray
