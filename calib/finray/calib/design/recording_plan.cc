@@ -9,6 +9,7 @@
 
 #include "finray/calib/analysis/predicted_frames.h"
 #include "finray/calib/design/contact_accuracy.h"
+#include "finray/calib/problem/median.h"
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
@@ -200,12 +201,6 @@ struct PredictedErrors {
     return met / static_cast<double>(count);
   }
 };
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Returns the information on a draw after n rows, each recorded `times` times.
 Eigen::MatrixXd InformationAfter(std::size_t rows, double times,

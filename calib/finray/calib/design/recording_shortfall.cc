@@ -12,8 +12,9 @@ std::string RecordingShortfall::Remedy() const {
         rows);
   }
   if (2 * noisy > draws) {
-    return "the noise of one frame is larger: no calibration helps; take a "
-           "larger --force_N, average frames, or better gauges";
+    return "the noise of one frame is larger than the target, so no "
+           "calibration helps: take a larger --force_N, average frames, or "
+           "other gauges";
   }
   std::string words = FormatText(
       "no number of rows suffices (%d times as many meet it in %.1f %%)",

@@ -43,7 +43,7 @@ struct CalibrationParameter {
   /// a prior, the parameter is not known.
   double vague_std = 0;
 
-  /// Convert a variable and its std to the number that the user sees.
+  /// Return what the user sees of the variable at `at`, and of its std there.
   double Value(double at) const;
   double ValueStd(double at, double std) const;
   /// The residual of the prior, which is 0 without one.
