@@ -139,8 +139,7 @@ void PrintExploration(const Exploration& exploration) {
     std::printf("explored       %s\n", WordsOf(step).c_str());
   }
   if (!exploration.beyond.empty()) {
-    std::printf("explored       ended, as no plan frees this: %s\n",
-                exploration.beyond.c_str());
+    std::printf("explored       ended: %s\n", exploration.beyond.c_str());
   } else if (exploration.steps.empty() && exploration.failed.empty()) {
     std::printf(
         "explored       the logs show no effect that the plan leaves "

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -54,14 +55,19 @@ TEST(DifferingLogsTest, OriginsOfTheStage) {
   EXPECT_EQ(score.Best()->family, ParameterFamily::kObjectOrigin)
       << score.Words();
   EXPECT_EQ(score.Best()->where, ScoreTest::Where::kByLog);
-  EXPECT_THAT(score.Words(), HasSubstr("object_origin_y_mm["));
+  EXPECT_THAT(score.Best()->words, HasSubstr("object_origin_y_mm["));
 
   const Finger start = Nominal();
   CalibrationProblem problem(start, CommonOrigin(),
                              ReadCalibrationLogs(logs, start, CommonOrigin()),
                              {}, 2);
   const Exploration found = Explore(&problem);
-  EXPECT_TRUE(found.plan.family(ParameterFamily::kObjectOrigin).per_log);
+  EXPECT_TRUE(std::any_of(found.steps.begin(), found.steps.end(),
+                          [](const Exploration::Step& step) {
+                            return step.kept && step.effect.per_log &&
+                                   step.effect.family ==
+                                       ParameterFamily::kObjectOrigin;
+                          }));
   EXPECT_TRUE(found.beyond.empty());
 }
 
@@ -98,6 +104,27 @@ TEST(DifferingLogsTest, AForceBiasThatChanges) {
     EXPECT_TRUE(found.steps.empty());
     EXPECT_THAT(found.beyond, HasSubstr("an offset of the force sensor from"));
   }
+}
+
+// An offset changes several times. Each change alone leaves the others, so that
+// --explore names none.
+TEST(DifferingLogsTest, ExploreNamesNoCauseThatDoesNotExplain) {
+  const Plan plan =
+      ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/force_and_circle.yaml");
+  FrameTable log =
+      FrameTable::Read(FINRAY_SOURCE_DIR "/datasets/simulated_r15/train.csv");
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    log.MutableNumbers("gauge_2_V")[i] +=
+        0.004 * static_cast<double>(i / 50 % 3);
+  }
+  const TempFolder folder;
+  log.Write(folder.Path("log.csv"));
+  CalibrationProblem problem(
+      PaperFinger(), plan,
+      ReadCalibrationLogs({folder.Path("log.csv")}, PaperFinger(), plan), {},
+      2);
+  EXPECT_EQ(Explore(&problem).beyond,
+            "no effect that finray knows explains the logs");
 }
 
 // Where few enough rows are of another kind, they are outliers. They are not of

@@ -17,6 +17,13 @@ CalibrationProblem ProblemOf(const Plan& plan, const std::string& log) {
                             ReadCalibrationLogs({log}, Nominal(), plan), {}, 2);
 }
 
+Plan Explored(Plan plan, const Exploration& found) {
+  for (const Exploration::Step& step : found.steps) {
+    if (step.kept) plan = Freed(plan, step.effect);
+  }
+  return plan;
+}
+
 TEST(ExploreTest, ATurnedStageIsFreedAndNothingElse) {
   const TempFolder folder;
   const std::string log = TurnedStageLog(folder, 71, 1);
@@ -29,8 +36,9 @@ TEST(ExploreTest, ATurnedStageIsFreedAndNothingElse) {
     EXPECT_TRUE(!step.kept || step.after > step.before);
   }
   EXPECT_EQ(kept, 1);
-  EXPECT_TRUE(found.plan.family(ParameterFamily::kObjectRotation).free);
-  CalibrationProblem freed = ProblemOf(found.plan, log);
+  const Plan plan = Explored(StandardPlan(), found);
+  EXPECT_TRUE(plan.family(ParameterFamily::kObjectRotation).free);
+  CalibrationProblem freed = ProblemOf(plan, log);
   EXPECT_EQ(Calibrate(&freed).Verdict(), "good");
 }
 
@@ -59,7 +67,7 @@ TEST(ExploreTest, FrictionOfAnotherPhysicsIsFound) {
   ASSERT_FALSE(found.steps.empty());
   EXPECT_EQ(found.steps[0].effect.family, ParameterFamily::kFriction);
   EXPECT_TRUE(found.steps[0].kept);
-  const CalibrationResult with = calibrated(found.plan, nullptr);
+  const CalibrationResult with = calibrated(Explored(plan, found), nullptr);
   const auto covered = [](const CalibrationResult& result) {
     return result.cross_validation.errors.contact.force_N.coverage_95_percent();
   };

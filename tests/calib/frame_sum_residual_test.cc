@@ -66,7 +66,8 @@ TEST(FrameSumResidualTest, InformationIsTheSumOverAllRows) {
   }
   sums.Finish();
   for (int log = 0; log < kLogs; ++log) {
-    EXPECT_LT((sums.InformationOfLog(log) - of_log[log]).norm(), 1e-11) << log;
+    EXPECT_LT((sums.InformationOfGroup(log) - of_log[log]).norm(), 1e-11)
+        << log;
   }
   for (int k = 0; k < 2; ++k) {
     EXPECT_LT(

@@ -78,7 +78,8 @@ TEST(GeometryEffectsTest, ExploreNamesMovedHinges) {
   ASSERT_FALSE(found.steps.empty());
   EXPECT_EQ(found.steps[0].effect.family, ParameterFamily::kFrontHinge);
   EXPECT_TRUE(found.steps[0].kept);
-  EXPECT_TRUE(found.plan.family(ParameterFamily::kBackHinge).free);
+  const Plan plan = Freed(StandardPlan(), found.steps[0].effect);
+  EXPECT_TRUE(plan.family(ParameterFamily::kBackHinge).free);
 }
 
 TEST(GeometryEffectsTest, Clamps) {

@@ -44,6 +44,14 @@ TEST(ScoreTestTest, EveryFamilyIsACandidate) {
             static_cast<std::size_t>(kParameterFamilies));
 }
 
+// What Apply keeps from going below 0 is impossible there.
+TEST(ScoreTestTest, WhatIsAtLeastZeroHasThatBound) {
+  for (int i = 0; i < kFingerParameterKinds; ++i) {
+    if (!IsAtLeastZero(static_cast<FingerParameterKind>(i))) continue;
+    EXPECT_EQ(CandidateOf(static_cast<ParameterFamily>(i)).least, 0) << i;
+  }
+}
+
 // 5 % stiffer than on average at the base of both beams, 5 % softer at the tip.
 TEST(ScoreTestTest, BeamsThatTaperAreNamedFirst) {
   Finger tapered = HiddenFinger();
@@ -140,14 +148,18 @@ TEST(ScoreTestTest, RefitsNameATurnedStageFirst) {
     const SolvedProblem at{
         calibrated.problem.get(), nullptr, calibrated.solution,
         CrossValidatedLogLikelihood(*calibrated.problem, wide)};
-    const ScoreTest score =
-        TestScores(*calibrated.problem, calibrated.found, wide,
-                   RefitRivals(at, ScoresOf(&calibrated)));
+    ScoreTest score = TestScores(*calibrated.problem, calibrated.found, wide,
+                                 RefitRivals(at, ScoresOf(&calibrated)));
     const ScoreTest::Effect* best = score.Best();
     ASSERT_NE(best, nullptr);
     EXPECT_NEAR(best->values[0].value, 1, 5 * best->values[0].std);
     first += best->family == ParameterFamily::kObjectRotation;
-    EXPECT_NE(score.Words().find("residuals look like"), std::string::npos);
+    // Nothing is named before a refit has shown that it explains them.
+    EXPECT_EQ(score.Words(), "");
+    EXPECT_FALSE(score.FoundNone());
+    if (seed > 40) continue;
+    JudgeEffects(at, &score);
+    EXPECT_EQ(score.Words().find("residuals look like a turned stage"), 0u);
   }
   EXPECT_EQ(first, 4);
 }
@@ -170,6 +182,85 @@ TEST(ScoreTestTest, WhatALogCannotTellApartIsNamedTogether) {
   EXPECT_NE(
       std::count(named.begin(), named.end(), ParameterFamily::kObjectRadius),
       0);
+}
+
+// Four columns of which the data tell little cost little evidence, so that they
+// may have more of it than a column that chance does not explain.
+TEST(ScoreTestTest, WhatChanceExplainsHidesNothing) {
+  const TempFolder folder;
+  const Calibrated calibrated(StandardPlan(),
+                              {StandardLog(folder, HiddenFinger(), 58)});
+  WideLinearization wide =
+      LinearizeWide(*calibrated.problem, calibrated.solution);
+  for (Linearization& fold : wide.folds) {
+    fold.gradient.setZero();
+    fold.pulls.setZero();
+    for (auto& [stretch, families] : fold.information) {
+      for (Eigen::MatrixXd& part : families) part.setZero();
+    }
+  }
+  const CalibrationParameters& parameters = wide.problem->parameters();
+  const Eigen::VectorXd unit = parameters.Units();
+  Linearization& fold = wide.folds[0];
+  for (const Eigen::Index k : wide.candidates) {
+    const ParameterFamily family =
+        parameters.FreeParameter(static_cast<std::size_t>(k)).family;
+    const bool starts = family == ParameterFamily::kGaugeStart;
+    if (!starts && family != ParameterFamily::kObjectRotation) continue;
+    const double a = starts ? 0.5 : 1e5, drop = starts ? 3.5 : 20;
+    fold.gradient[k] = std::sqrt(drop * (a + 1)) / unit[k];
+    fold.information.begin()->second[0](k, k) = a / (unit[k] * unit[k]);
+  }
+  const ScoreTest score =
+      TestScores(*calibrated.problem, calibrated.found, wide);
+  const ScoreTest::Effect* starts = Find(score, ParameterFamily::kGaugeStart);
+  ASSERT_NE(starts, nullptr);
+  EXPECT_EQ(starts->values.size(), 4u);
+  EXPECT_FALSE(starts->significant);
+  ASSERT_NE(score.Best(), nullptr);
+  EXPECT_EQ(score.Best()->family, ParameterFamily::kObjectRotation);
+  EXPECT_LT(score.Best()->evidence, starts->evidence);
+  // Nor does a refit of another one.
+  const std::vector<Refit> refits = {
+      {ParameterFamily::kObjectRotation, 20, 8, {}}};
+  EXPECT_NE(
+      TestScores(*calibrated.problem, calibrated.found, wide, refits).Best(),
+      nullptr);
+}
+
+// No plan frees what changes in mid-log. Where it is the second effect, it is
+// judged by what the first one leaves.
+TEST(ScoreTestTest, TheSecondEffectIsJudgedByWhatTheFirstLeaves) {
+  const TempFolder folder;
+  FrameTable log = FrameTable::Read(TurnedStageLog(folder, 46, 0.3));
+  for (std::size_t i = 105; i < log.rows(); ++i) {
+    log.MutableNumbers("force_N")[i] += 0.1;
+  }
+  log.Write(folder.Path("two.csv"));
+  Calibrated calibrated(StandardPlan(), {folder.Path("two.csv")});
+  const SolvedProblem at{calibrated.problem.get(), nullptr,
+                         calibrated.solution};
+  std::string why_not;
+  auto turned =
+      SolveWith(CandidateOf(ParameterFamily::kObjectRotation), at, &why_not);
+  ASSERT_TRUE(turned) << why_not;
+  JudgeAgain(&*turned);
+  const TotalChi2 left = TotalChi2::Of(
+      AnalyzeIdentifiability(turned->problem, turned->solution.at));
+  ASSERT_TRUE(left.IsLoud());
+  ScoreTest score;
+  score.effects.resize(1);
+  score.effects[0].family = ParameterFamily::kObjectRotation;
+  score.effects[0].significant = true;
+  score.next.emplace();
+  score.next->family = ParameterFamily::kForceOffset;
+  score.next->where = ScoreTest::Where::kFrom;
+  score.next->drop = left.chi2 - left.dof;
+  JudgeEffects(at, &score);
+  EXPECT_TRUE(score.explained.value());
+  score.next->drop /= 2;
+  JudgeEffects(at, &score);
+  EXPECT_FALSE(score.explained.value());
 }
 
 TEST(ScoreTestTest, CleanLogsNameNothing) {

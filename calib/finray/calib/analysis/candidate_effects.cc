@@ -86,6 +86,17 @@ const CandidateEffect& CandidateOf(ParameterFamily family) {
   throw std::out_of_range("no candidate effect of this family");
 }
 
+std::optional<double> ImpossibleBound(const CalibrationParameter& parameter,
+                                      double std) {
+  const CandidateEffect& effect = CandidateOf(parameter.family);
+  const double at = *parameter.variable;
+  const double value = parameter.Value(at);
+  const double off = kImpossibleStd * parameter.ValueStd(at, std);
+  if (value + off < effect.least) return effect.least;
+  if (value - off > effect.most) return effect.most;
+  return {};
+}
+
 std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
                                            const Plan& plan,
                                            const CalibrationLogs& logs) {

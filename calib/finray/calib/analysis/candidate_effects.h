@@ -2,10 +2,12 @@
 #define FINRAY_CALIB_ANALYSIS_CANDIDATE_EFFECTS_H_
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "finray/calib/problem/calibration_log.h"
+#include "finray/calib/problem/parameters.h"
 #include "finray/calib/problem/plan.h"
 #include "finray/finger/finger.h"
 
@@ -18,8 +20,8 @@ struct CandidateEffect {
   /// key of its prior in a plan.
   double prior_std;
   std::string words;  ///< What residuals look like if it is there.
-  /// No finger and no bench has a value below; -infinity: any value is
-  /// possible.
+  /// No finger and no bench has a value below, in the unit of
+  /// CalibrationParameter::Value; -infinity: any value is possible.
   double least = -std::numeric_limits<double>::infinity();
   /// Nor one above. What is kFarthest prior_std from the fixed value is not
   /// possible either.
@@ -36,6 +38,13 @@ struct CandidateEffect {
 const std::vector<CandidateEffect>& AllCandidateEffects();
 /// Returns the one of a family. Throws std::out_of_range if there is none.
 const CandidateEffect& CandidateOf(ParameterFamily family);
+
+/// Returns the least or the greatest value that a finger or bench has, if the
+/// parameter is more than kImpossibleStd std beyond it. `std` is that of the
+/// variable.
+std::optional<double> ImpossibleBound(const CalibrationParameter& parameter,
+                                      double std);
+constexpr double kImpossibleStd = 3;
 
 /// Returns those that the plan does not free, whose columns the logs have, and
 /// that their times allow (row_times.h).

@@ -29,13 +29,20 @@ Exploration::Step* LastFreed(Exploration* exploration) {
 bool FreeNext(SolvedProblem* now, Exploration* result) {
   now->problem->Tell("effects that the plan leaves out");
   const WideLinearization wide = LinearizeWide(*now->problem, now->solution);
-  const ScoreTest score =
+  ScoreTest score =
       TestScores(*now->problem,
                  AnalyzeIdentifiability(now->problem, now->solution.at), wide);
   if (score.Best() == nullptr) return false;
   if (!score.Best()->CanBeFreed()) {
-    result->beyond = score.Best()->words;
-    return false;
+    JudgeEffects(*now, &score);
+    if (score.FoundNone()) {
+      result->beyond = "no effect that finray knows explains the logs";
+      return false;
+    }
+    if (!score.Best()->CanBeFreed()) {
+      result->beyond = "no plan frees this: " + score.Best()->words;
+      return false;
+    }
   }
   const double before = CrossValidatedLogLikelihood(*now->problem, wide);
   std::vector<ScoreTest::Effect> tried;
@@ -98,7 +105,6 @@ Exploration Explore(CalibrationProblem* problem) {
                               "; they stay as they were");
     }
   }
-  result.plan = now.problem->plan();
   return result;
 }
 

@@ -21,14 +21,14 @@ struct Exploration {
     bool kept = false;
   };
   std::vector<Step> steps;
-  /// Names the change in mid-log that the logs show at the end and that no plan
-  /// can free; empty if there is none. Another effect in its place would
-  /// deceive, so nothing is freed any more.
+  /// Says why nothing more is freed though the logs show an effect that no plan
+  /// frees, such as a change in mid-log: it explains the residuals, and another
+  /// one in its place would deceive, or none that is known explains them.
+  /// Empty if there is no such effect.
   std::string beyond;
   /// Steps that failed, each with the reason. What was solved before them
   /// stands.
   std::vector<std::string> failed;
-  Plan plan;  ///< With the kept effects free.
 };
 
 /// Solves, and frees effects one by one. Each time it tries the best few of

@@ -286,6 +286,16 @@ bool Identifiability::Noise::IsTooQuiet() const {
   return std::cbrt(chi2 / dof) < 1 - variance - kSurely * std::sqrt(variance);
 }
 
+TotalChi2 TotalChi2::Of(const Identifiability& found) {
+  TotalChi2 total;
+  for (const Identifiability::Noise& noise : found.noise) {
+    if (noise.residuals == 0) continue;
+    total.chi2 += noise.chi2;
+    total.dof += noise.dof;
+  }
+  return total;
+}
+
 void KeepCovariance(const CalibrationParameters& parameters,
                     const Identifiability& found, Finger* finger) {
   ParameterCovariance covariance;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,19 @@ struct Identifiability {
   };
   std::array<Noise, kResidualFamilies> noise;
   bool touches = false;  ///< Says whether there are frames with contact.
+};
+
+/// Chi2 and degrees of freedom of all residuals. A family may have fewer of
+/// these than were fitted to it; the others have more then.
+struct TotalChi2 {
+  double chi2 = 0, dof = 0;
+
+  static TotalChi2 Of(const Identifiability& found);
+  /// In std of chi2.
+  double Excess() const { return (chi2 - dof) / std::sqrt(2 * dof); }
+  /// Says that noise does not make so much.
+  bool IsLoud() const { return dof >= 1 && Excess() >= kLoudStd; }
+  static constexpr double kLoudStd = 4;
 };
 
 Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,

@@ -106,7 +106,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
     Eigen::MatrixXd information = prior;
     for (const auto& [log, its] : by_log) {
       if (group_of[log] == group) continue;
-      information += InUnits(solution.at.InformationOfLog(log), found.unit);
+      information += InUnits(solution.at.InformationOfGroup(log), found.unit);
     }
     const Eigen::VectorXd variance_without =
         BoundedCovariance(information).diagonal();

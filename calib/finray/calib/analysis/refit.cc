@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -61,6 +62,22 @@ std::string WhyImpossible(const CandidateEffect& effect,
   return "";
 }
 
+// Solves the frames of another solution from there. Says why it does not get to
+// the end; empty if it does.
+std::string SolveFrom(const CalibrationSolution& from, SolvedProblem* with) {
+  ContactStore contacts(with->problem);
+  contacts.Set(from.contacts);
+  SummedSolution solved =
+      SolveSummed(from.at.frames, {}, with->problem, &contacts);
+  if (!solved.report.converged) {
+    return "the solver stopped early: " + solved.report.message;
+  }
+  with->solution.solve = solved.report;
+  with->solution.at = std::move(solved.at);
+  with->solution.contacts = contacts.all();
+  return "";
+}
+
 // Says whether the residuals of a solution are noise.
 bool Fits(const SolvedProblem& at) {
   const std::size_t rejected = at.problem->rejected().size();
@@ -85,11 +102,7 @@ std::string ImpossibleValue(const SolvedProblem& at) {
     const CalibrationParameter& p =
         parameters.FreeParameter(static_cast<std::size_t>(k));
     const double std = unit[k] * std::sqrt(covariance(k, k));
-    const double value = p.Value(*p.variable);
-    const double value_std = p.ValueStd(*p.variable, std);
-    const CandidateEffect& effect = CandidateOf(FrontFamilyOf(p.family));
-    if (!std::isfinite(value) || value + 3 * value_std < effect.least ||
-        value - 3 * value_std > effect.most) {
+    if (!std::isfinite(p.Value(*p.variable)) || ImpossibleBound(p, std)) {
       return p.name;
     }
   }
@@ -106,18 +119,9 @@ std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
   SolvedProblem with;
   with.owned = from.problem->WithPlan(Freed(from.problem->plan(), effect));
   with.problem = with.owned.get();
-  ContactStore contacts(with.problem);
-  contacts.Set(from.solution.contacts);
   try {
-    SummedSolution solved =
-        SolveSummed(from.solution.at.frames, {}, with.problem, &contacts);
-    if (!solved.report.converged) {
-      *why_not = "the solver stopped early: " + solved.report.message;
-      return {};
-    }
-    with.solution.solve = solved.report;
-    with.solution.at = std::move(solved.at);
-    with.solution.contacts = contacts.all();
+    *why_not = SolveFrom(from.solution, &with);
+    if (!why_not->empty()) return {};
     const std::string impossible = ImpossibleValue(with);
     if (!impossible.empty() && ImpossibleValue(from).empty()) {
       *why_not = "it ends at an impossible value of " + impossible;
@@ -199,25 +203,43 @@ std::string JudgeAgain(SolvedProblem* at) {
   return "";
 }
 
-TotalChi2 TotalChi2::Of(const Identifiability& found) {
-  TotalChi2 total;
-  for (const Identifiability::Noise& noise : found.noise) {
-    if (noise.residuals == 0) continue;
-    total.chi2 += noise.chi2;
-    total.dof += noise.dof;
+bool FitsWithNoise(const CalibrationProblem& problem,
+                   const CalibrationSolution& solution,
+                   const std::vector<double>& noise_V) {
+  Finger finger = problem.finger();
+  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+    finger.gauges[j].noise_V = noise_V[j];
   }
-  return total;
+  Plan plan = problem.plan();
+  plan.gauge_std_V.reset();
+  SolvedProblem with;
+  try {
+    with.owned = std::make_unique<CalibrationProblem>(
+        finger, plan, problem.logs(), problem.discretization(),
+        problem.threads());
+    with.problem = with.owned.get();
+    with.problem->SetRejected(problem.rejected());
+    with.problem->SetValues(problem.Values());
+    with.problem->KeepFriction();
+    if (!SolveFrom(solution, &with).empty()) return false;
+    JudgeAgain(&with);
+    return Fits(with);
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
-void JudgeEffects(const SolvedProblem& from, const TotalChi2& total,
-                  ScoreTest* score) {
+void JudgeEffects(const SolvedProblem& from, ScoreTest* score) {
   // Returns what freeing it leads to, if that explains the residuals. One that
   // no plan frees is judged by what the score test expects.
   const auto explains = [&](const ScoreTest::Effect& effect,
                             const SolvedProblem& start,
                             std::optional<SolvedProblem>* with) {
     if (!effect.CanBeFreed()) {
-      return !TotalChi2{total.chi2 - effect.drop, total.dof}.IsLoud();
+      TotalChi2 rest = TotalChi2::Of(
+          AnalyzeIdentifiability(start.problem, start.solution.at));
+      rest.chi2 -= effect.drop;
+      return !rest.IsLoud();
     }
     std::string why_not;
     *with = SolveWith(effect.Candidate(), start, &why_not);
@@ -250,6 +272,7 @@ void JudgeEffects(const SolvedProblem& from, const TotalChi2& total,
       effects.begin(), effects.end(),
       [&](const auto& effect) { return effect.family == named[0].family; });
   if (first != effects.begin()) score->next.reset();
+  score->explained = true;
   std::rotate(effects.begin(), first, first + 1);
   score->alike.assign(named.begin() + 1, named.end());
 }

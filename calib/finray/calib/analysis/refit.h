@@ -1,7 +1,6 @@
 #ifndef FINRAY_CALIB_ANALYSIS_REFIT_H_
 #define FINRAY_CALIB_ANALYSIS_REFIT_H_
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -30,9 +29,8 @@ struct SolvedProblem {
   double Cost() const;
 };
 
-/// Returns the name of a free parameter at an impossible value: no number, or 3
-/// std below the least or above the most that a finger or bench has. Empty if
-/// there is none.
+/// Returns the name of a free parameter at an impossible value: no number, or
+/// beyond an ImpossibleBound. Empty if there is none.
 std::string ImpossibleValue(const SolvedProblem& at);
 
 /// Solves the same frames with the effect free as well. Returns nothing, and
@@ -56,25 +54,18 @@ std::vector<Refit> RefitRivals(const SolvedProblem& from,
 /// text says why; else it is empty.
 std::string JudgeAgain(SolvedProblem* at);
 
-/// Chi2 and degrees of freedom of all residuals.
-struct TotalChi2 {
-  double chi2 = 0, dof = 0;
-
-  static TotalChi2 Of(const Identifiability& found);
-  /// In std of chi2.
-  double Excess() const { return (chi2 - dof) / std::sqrt(2 * dof); }
-  /// Says that noise does not make so much.
-  bool IsLoud() const { return dof >= 1 && Excess() >= kLoudStd; }
-  static constexpr double kLoudStd = 4;
-};
+/// Says whether the residuals of a solution are noise, and few frames are
+/// rejected, where the gauges have this noise.
+bool FitsWithNoise(const CalibrationProblem& problem,
+                   const CalibrationSolution& solution,
+                   const std::vector<double>& noise_V);
 
 /// Leaves only effects that explain the residuals to be named: freeing one (or,
 /// where none does alone, the best one and the next) leads to possible values,
 /// to a chi2 that is not loud and to hardly any rejected frames. One that no
-/// plan can free explains them if `total`, the chi2 of the solution, less its
-/// drop is not loud. If none does, score->explained is false.
-void JudgeEffects(const SolvedProblem& from, const TotalChi2& total,
-                  ScoreTest* score);
+/// plan can free explains them if the chi2 of the solution that it is judged
+/// at, less its drop, is not loud. Sets score->explained.
+void JudgeEffects(const SolvedProblem& from, ScoreTest* score);
 
 }  // namespace finray
 

@@ -60,6 +60,11 @@ struct Candidates {
   std::string rows = {};
 };
 
+// What ranks effects: evidence that chance makes hides no effect.
+std::pair<bool, double> RankOf(const ScoreTest::Effect& effect) {
+  return {effect.significant, effect.evidence};
+}
+
 std::string WithoutLog(const std::string& name) {
   return name.substr(0, name.find('['));
 }
@@ -68,12 +73,7 @@ class ScoreRanking {
  public:
   ScoreRanking(const CalibrationProblem& problem, const Identifiability& found,
                const WideLinearization& wide, const std::vector<Refit>& refits)
-      : wide_(wide), refits_(refits) {
-    for (const Identifiability::Noise& noise : found.noise) {
-      if (noise.residuals == 0) continue;
-      chi2_ += noise.chi2;
-      dof_ += std::max(0.0, noise.dof);
-    }
+      : wide_(wide), refits_(refits), total_(TotalChi2::Of(found)) {
     FindScores(problem);
     FindTests();
   }
@@ -174,19 +174,12 @@ class ScoreRanking {
   // than white noise makes. Returns tau of the pulls of a parameter about their
   // means before and from stretch `from` on, or 1 if these pulls are white.
   double RowsAlike(Eigen::Index k, int first, int from, int end) const {
-    std::vector<std::pair<int, double>> pulls;  // by frame
-    for (const Linearization& fold : wide_.folds) {
-      for (std::size_t i = 0; i < fold.frames.size(); ++i) {
-        const int stretch = wide_.stretch_of[fold.frames[i]];
-        if (stretch < first || stretch >= end) continue;
-        pulls.emplace_back(fold.frames[i],
-                           fold.pulls(k, static_cast<Eigen::Index>(i)));
-      }
-    }
-    std::sort(pulls.begin(), pulls.end());
     std::vector<std::vector<double>> parts(2);
-    for (const auto& [frame, pull] : pulls) {
-      parts[wide_.stretch_of[frame] >= from ? 1 : 0].push_back(pull);
+    for (const PulledFrame& one : pulled_) {
+      const int stretch = wide_.stretch_of[one.frame];
+      if (stretch < first || stretch >= end) continue;
+      parts[stretch >= from ? 1 : 0].push_back(
+          wide_.folds[one.fold].pulls(k, one.column));
     }
     for (std::vector<double>& part : parts) {
       double mean = 0;
@@ -209,15 +202,22 @@ class ScoreRanking {
     const auto all = wide_.folds[0].gradient.size();
     gradient_.assign(count, Eigen::VectorXd::Zero(all));
     information_.assign(count, Eigen::MatrixXd::Zero(all, all));
-    for (const Linearization& fold : wide_.folds) {
+    for (std::size_t i = 0; i < wide_.folds.size(); ++i) {
+      const Linearization& fold = wide_.folds[i];
       for (std::size_t k = 0; k < fold.frames.size(); ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        pulled_.push_back({fold.frames[k], i, column});
         gradient_[wide_.stretch_of[fold.frames[k]]] +=
-            fold.pulls.col(static_cast<Eigen::Index>(k)).cast<double>();
+            fold.pulls.col(column).cast<double>();
       }
       for (const auto& [stretch, of_stretch] : fold.information) {
-        information_[stretch] += fold.InformationOfLog(stretch);
+        information_[stretch] += fold.InformationOfGroup(stretch);
       }
     }
+    std::sort(pulled_.begin(), pulled_.end(),
+              [](const PulledFrame& a, const PulledFrame& b) {
+                return a.frame < b.frame;
+              });
   }
 
   void FindScores(const CalibrationProblem& problem) {
@@ -356,13 +356,13 @@ class ScoreRanking {
       if (effect.values.empty()) continue;
       if (best.empty() || best.back().family != effect.family) {
         best.push_back(std::move(effect));
-      } else if (effect.evidence > best.back().evidence) {
+      } else if (RankOf(effect) > RankOf(best.back())) {
         best.back() = std::move(effect);
       }
     }
     std::stable_sort(
         best.begin(), best.end(),
-        [](const auto& a, const auto& b) { return a.evidence > b.evidence; });
+        [](const auto& a, const auto& b) { return RankOf(a) > RankOf(b); });
     return best;
   }
 
@@ -394,7 +394,10 @@ class ScoreRanking {
     }
     const auto rank = [&](const ScoreTest::Effect& effect) {
       if (!effect.CanBeFreed()) {
-        return effect.evidence > promised && effect.drop > shown ? 2 : 0;
+        return effect.significant && effect.evidence > promised &&
+                       effect.drop > shown
+                   ? 2
+                   : 0;
       }
       return std::any_of(refits_.begin(), refits_.end(),
                          [&](const Refit& refit) {
@@ -403,11 +406,10 @@ class ScoreRanking {
                  ? 1
                  : 0;
     };
-    std::stable_sort(effects->begin(), effects->end(),
-                     [&](const auto& a, const auto& b) {
-                       return std::pair(rank(a), a.evidence) >
-                              std::pair(rank(b), b.evidence);
-                     });
+    std::stable_sort(
+        effects->begin(), effects->end(), [&](const auto& a, const auto& b) {
+          return std::pair(rank(a), RankOf(a)) > std::pair(rank(b), RankOf(b));
+        });
   }
 
   // Returns the test without parameters whose values would be impossible.
@@ -456,12 +458,13 @@ class ScoreRanking {
     effect.where = test.where;
     effect.rows = test.rows;
     effect.drop = std::max(0.0, -s.dot(e));
-    const double rest = chi2_ - dropped - effect.drop;
+    const double rest = total_.chi2 - dropped - effect.drop;
     double tau = 1;
     for (const int column : columns) {
       tau = std::max(tau, columns_[column].tau);
     }
-    const double scale2 = tau * (dof_ > 0 ? std::max(1.0, rest / dof_) : 1.0);
+    const double scale2 =
+        tau * (total_.dof > 0 ? std::max(1.0, rest / total_.dof) : 1.0);
     const Eigen::MatrixXd l = factor.matrixL();
     effect.evidence =
         effect.drop / scale2 - 2 * l.diagonal().array().log().sum();
@@ -518,8 +521,15 @@ class ScoreRanking {
 
   const WideLinearization& wide_;
   const std::vector<Refit>& refits_;
-  double chi2_ = 0, dof_ = 0;
+  TotalChi2 total_;
   Eigen::VectorXd unit_;
+  // The frames of all folds in their order, and where their pulls are.
+  struct PulledFrame {
+    int frame;
+    std::size_t fold;
+    Eigen::Index column;
+  };
+  std::vector<PulledFrame> pulled_;
   // By stretch, while the scores are found.
   std::vector<Eigen::VectorXd> gradient_;
   std::vector<Eigen::MatrixXd> information_;
@@ -547,9 +557,13 @@ const ScoreTest::Effect* ScoreTest::Best() const {
   return effects.empty() || !effects[0].significant ? nullptr : &effects[0];
 }
 
+bool ScoreTest::FoundNone() const {
+  return !effects.empty() && (Best() == nullptr || explained == false);
+}
+
 std::string ScoreTest::Words() const {
   const Effect* best = Best();
-  if (best == nullptr || !explained) return "";
+  if (best == nullptr || !explained.value_or(false)) return "";
   std::string words = "residuals look like " + best->words;
   for (const Effect& effect : alike) {
     words += ", or as well like " + effect.words;

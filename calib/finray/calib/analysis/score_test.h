@@ -84,7 +84,8 @@ struct ScoreTest {
     /// Returns the effect that SolveWith frees to refit this one.
     CandidateEffect Candidate() const;
   };
-  /// The best test of each family, the best family first.
+  /// The best test of each family, the best family first: significant tests
+  /// before others, then by evidence.
   std::vector<Effect> effects;
   /// Families that explain what effects[0] explains about as well: their
   /// evidence is near, and little of it is left once effects[0] is free.
@@ -92,14 +93,16 @@ struct ScoreTest {
   /// The best of the others once effects[0] is free, if it is significant.
   std::optional<Effect> next;
 
-  /// False: none of them explains the residuals (JudgeEffects), so that none
-  /// is named.
-  bool explained = true;
+  /// Says whether effects[0], alone or with `next`, explains the residuals. It
+  /// is empty until JudgeEffects has tried.
+  std::optional<bool> explained;
 
   /// The best effect if it is significant, else null.
   const Effect* Best() const;
-  /// Says what residuals look like; empty if nothing significant explains
-  /// them.
+  /// Says that the effects were tested, and judged if one is significant, and
+  /// that none explains the residuals.
+  bool FoundNone() const;
+  /// Says what residuals look like; empty if nothing is known to explain them.
   std::string Words() const;
 };
 

@@ -22,6 +22,13 @@ namespace {
 // If chi2 / dof is above it, a std in the plan is wrong.
 constexpr double kTooNoisy = 2;
 
+// Says that forces are means, whose std the log tells (force_scatter_N).
+bool RowsAreMeans(const CalibrationLogs& logs) {
+  return std::any_of(
+      logs.frames.begin(), logs.frames.end(),
+      [](const auto& frame) { return frame.force_std_times != 1; });
+}
+
 // The std of the family that the plan or the finger states, times a factor.
 std::string StdInWords(ResidualFamily family, const CalibrationProblem& problem,
                        double times) {
@@ -37,7 +44,9 @@ std::string StdInWords(ResidualFamily family, const CalibrationProblem& problem,
                  ? words("gauge_std_V", plan.gauge_std_V)
                  : FormatText(": noise_V of the gauges times %.2f fits", times);
     case ResidualFamily::kForce:
-      return words("force_std_N", plan.force_std_N);
+      return RowsAreMeans(problem.logs())
+                 ? FormatText(": force_scatter_N times %.2f fits", times)
+                 : words("force_std_N", plan.force_std_N);
     case ResidualFamily::kObject:
       return words("object_std_mm", plan.object_std_mm);
     case ResidualFamily::kContact:
@@ -70,16 +79,11 @@ void WarnOfNoise(const CalibrationProblem& problem,
            "raise "
            "the std in the plan's measurements if the sensor is that noisy"});
     } else if (noise.IsTooQuiet()) {
-      warnings->push_back(
-          {"noise_below_plan",
-           name +
-               FormatText(
-                   " residuals are %.2f of what their std says (chi2/dof "
-                   "%.3g)",
-                   std::sqrt(ratio), ratio) +
-               StdInWords(static_cast<ResidualFamily>(i), problem,
-                          std::sqrt(ratio)),
-           "lower that std; reported std are too large"});
+      warnings->push_back({"noise_below_plan",
+                           QuietInWords(static_cast<ResidualFamily>(i), noise) +
+                               StdInWords(static_cast<ResidualFamily>(i),
+                                          problem, std::sqrt(ratio)),
+                           "lower that std; reported std are too large"});
     }
   }
 }
@@ -399,7 +403,7 @@ void TestUnseen(CalibrationProblem* problem, const Identifiability& of_noise,
     result->score = TestScores(*problem, result->identifiability, *wide,
                                RefitRivals(at, result->score));
     if (result->score.Best() == nullptr) return;
-    JudgeEffects(at, TotalChi2::Of(result->identifiability), &result->score);
+    JudgeEffects(at, &result->score);
   });
   if (!wide) return;
   if (problem->plan().holdout_by == HoldoutBy::kNothing) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
+#include "finray/calib/analysis/candidate_effects.h"
 #include "finray/calib/analysis/gate.h"
 #include "finray/calib/analysis/gauge_changes.h"
 #include "finray/calib/analysis/refit.h"
@@ -51,10 +53,7 @@ void DoubtQuiet(const Identifiability& found,
        {ResidualFamily::kGauge, ResidualFamily::kForce}) {
     const Identifiability::Noise& noise = found.noise[static_cast<int>(family)];
     if (!noise.IsTooQuiet()) continue;
-    doubts->push_back(
-        std::string(ResidualFamilyName(family)) +
-        FormatText(" residuals are %.2f of what their std says (chi2/dof %.3g)",
-                   std::sqrt(noise.chi2 / noise.dof), noise.chi2 / noise.dof));
+    doubts->push_back(QuietInWords(family, noise));
   }
 }
 
@@ -78,13 +77,13 @@ void DoubtImpossible(const CalibrationParameters& parameters,
                      std::vector<std::string>* doubts) {
   for (std::size_t k = 0; k < parameters.free().size(); ++k) {
     const CalibrationParameter& p = parameters.FreeParameter(k);
-    if (!p.of_finger || !IsAtLeastZero(p.of_finger->kind)) continue;
+    const std::optional<double> bound = ImpossibleBound(p, found.std[k]);
+    if (!bound) continue;
     const double value = p.Value(*p.variable);
-    const double std = p.ValueStd(*p.variable, found.std[k]);
-    if (!(value < -kImpossibleStd * std)) continue;
-    doubts->push_back(p.name + FormatText(" is %.3g +- %.1g, and no finger has "
-                                          "less than 0",
-                                          value, std));
+    doubts->push_back(
+        p.name + FormatText(" is %.3g +- %.1g, and no finger has %s than %.3g",
+                            value, p.ValueStd(*p.variable, found.std[k]),
+                            value < *bound ? "less" : "more", *bound));
   }
 }
 
@@ -114,7 +113,8 @@ double HeightOf(const CalibrationFrame& frame) {
                                          : frame.object_mm.y();
 }
 
-double RowOf(const CalibrationFrame& frame) { return frame.row; }
+// Rows count from 1.
+double RowOf(const CalibrationFrame& frame) { return frame.row + 1; }
 
 void DoubtRejected(const CalibrationProblem& problem,
                    std::vector<std::string>* doubts) {
@@ -141,6 +141,15 @@ void DoubtRejected(const CalibrationProblem& problem,
 
 }  // namespace
 
+std::string QuietInWords(ResidualFamily family,
+                         const Identifiability::Noise& noise) {
+  const double ratio = noise.chi2 / noise.dof;
+  return ResidualFamilyName(family) +
+         FormatText(
+             " residuals are %.2f of what their std says (chi2/dof %.3g)",
+             std::sqrt(ratio), ratio);
+}
+
 std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
                                     const CalibrationResult& result) {
   std::vector<std::string> doubts;
@@ -151,7 +160,7 @@ std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
   DoubtImpossible(problem.parameters(), result.identifiability, &doubts);
   DoubtRejected(problem, &doubts);
   if (result.score.Best() != nullptr) {
-    doubts.push_back(result.score.explained
+    doubts.push_back(result.score.explained.value_or(false)
                          ? "the plan leaves out an effect that the logs show"
                          : "the residuals are not noise");
   }
@@ -163,19 +172,33 @@ std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
 
 namespace {
 
-// The gauges whose steps the plan's std does not cover, in words.
-std::string CoarseGauges(const CalibrationProblem& problem) {
-  Finger finger = problem.finger();
-  for (Gauge& gauge : finger.gauges) {
-    gauge.noise_V = problem.plan().gauge_std_V.value_or(gauge.noise_V);
-  }
-  std::string words;
+// Names steps of converters that noise does not cover, as their own noise,
+// step / sqrt(12), is larger, if both together explain the residuals.
+std::string StepsInWords(const CalibrationProblem& problem,
+                         const CalibrationSolution& solution) {
+  const Finger& finger = problem.finger();
+  std::vector<double> noise_V;
+  for (const Gauge& gauge : finger.gauges) noise_V.push_back(gauge.noise_V);
+  const std::vector<double> stated_V = noise_V;
+  std::map<std::string, std::string> logs;  // by the words of their steps
   for (const auto& [log, faults] : FindGaugeFaults(problem.logs(), finger)) {
+    std::vector<GaugeFault> steps;
     for (const GaugeFault& fault : faults) {
-      if (fault.kind != GaugeFault::Kind::kCoarse) continue;
-      words += (words.empty() ? "" : ", ") + fault.words + " in " +
-               problem.logs().names[log];
+      const double own_V = fault.step_V / std::sqrt(12.0);
+      const double its_V = stated_V[fault.gauge];
+      if (fault.kind != GaugeFault::Kind::kCoarse || own_V < its_V) continue;
+      double& all_V = noise_V[fault.gauge];
+      all_V = std::max(all_V, std::hypot(its_V, own_V));
+      steps.push_back(fault);
     }
+    if (steps.empty()) continue;
+    std::string& names = logs[WordsOf(steps, true)];
+    names += (names.empty() ? " in " : ", ") + problem.logs().names[log];
+  }
+  if (logs.empty() || !FitsWithNoise(problem, solution, noise_V)) return "";
+  std::string words;
+  for (const auto& [steps, names] : logs) {
+    words += (words.empty() ? "" : ", ") + steps + names;
   }
   return words;
 }
@@ -213,6 +236,7 @@ std::string WhereInWords(const CalibrationProblem& problem,
   std::string where;
   double apart = 0;
   for (const auto& [of, format] : kinds) {
+    if (of == RowOf && problem.logs().paths.size() > 1) continue;
     std::vector<double> numbers;
     for (const ResidualInfo& row : at.rows) {
       const double number = of(problem.frame(row.frame));
@@ -250,30 +274,38 @@ void WarnOfDoubts(const CalibrationProblem& problem,
   if (result->Verdict() == "good" || (!effect && result->doubts.empty())) {
     return;
   }
+  const Identifiability& found = result->identifiability;
   std::vector<std::string> quiet;
-  DoubtQuiet(result->identifiability, &quiet);
+  DoubtQuiet(found, &quiet);
   const bool only_quiet = !effect && quiet == result->doubts;
-  const std::string coarse = CoarseGauges(problem);
-  const std::string named = !coarse.empty() ? coarse
+  const bool unexplained = effect || TotalChi2::Of(found).IsLoud();
+  const std::string steps =
+      unexplained ? StepsInWords(problem, result->solution) : "";
+  const std::string named = !steps.empty() ? steps
                             : only_quiet
                                 ? "the noise that is stated is too large"
                                 : result->score.Words();
-  std::string text = "likeliest cause: ";
+  std::string text;
+  const auto say = [&text](const std::string& words) {
+    if (!words.empty()) text += (text.empty() ? "" : "; ") + words;
+  };
   if (!named.empty()) {
-    text += named;
-  } else {
-    const std::string where = WhereInWords(problem, result->solution.at);
-    text += "none of the effects that finray knows explains the logs";
-    if (!where.empty()) text += "; " + where;
+    say("likeliest cause: " + named);
+  } else if (unexplained) {
+    say(result->score.FoundNone()
+            ? "likeliest cause: none of the effects that finray knows explains "
+              "the logs"
+            : "the likeliest cause was not found");
+    say(WhereInWords(problem, result->solution.at));
   }
-  for (const std::string& doubt : result->doubts) text += "; " + doubt;
+  for (const std::string& doubt : result->doubts) say(doubt);
   // The scatter of free readings is measured, so it is likelier still.
   auto first = result->warnings.begin();
   if (first != result->warnings.end() && first->code == "free_scatter") ++first;
   result->warnings.insert(
       first,
       {"doubtful", text,
-       !coarse.empty()
+       !steps.empty()
            ? "choose a finer range of the converter, or a gauge_std_V of step "
              "/ sqrt(12) in the plan's measurements"
        : only_quiet ? "state the noise that fits (noise_below_plan)"

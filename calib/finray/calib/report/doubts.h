@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/report/calibration_result.h"
 
@@ -20,7 +21,7 @@ namespace finray {
 ///    (Identifiability::Noise): noise told too large makes all intervals from
 ///    gauges too wide, and hides effects from the other tests;
 ///  - no value is further than kFarFromPrior std of its prior from it;
-///  - no value is further than kImpossibleStd std below what a finger can have;
+///  - no value is beyond what a finger or bench can have (ImpossibleBound);
 ///  - rejected frames are of the same forces, places and rows as the fitted
 ///    ones: the rank sums of Mann and Whitney differ by less than kRanksApart
 ///    std;
@@ -30,15 +31,20 @@ namespace finray {
 /// large: it holds errors that rows share, which residuals need not show.
 std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
                                     const CalibrationResult& result);
-constexpr double kFewer = 3, kFewerPercent = 2.5, kRanksApart = 3.5,
-                 kImpossibleStd = 3;
+constexpr double kFewer = 3, kFewerPercent = 2.5, kRanksApart = 3.5;
 constexpr std::size_t kLeastRejected = 3;
 
+/// "gauge residuals are 0.40 of what their std says (chi2/dof 0.16)".
+std::string QuietInWords(ResidualFamily family,
+                         const Identifiability::Noise& noise);
+
 /// Puts a warning before all others but `free_scatter` if the verdict is not
-/// `good`: the likeliest cause first, then the doubts. Steps of converters are
-/// the cause before any effect. An effect is named only if it explains the
-/// residuals (JudgeEffects); if none does, the text says so, and in which
-/// gauge, and at which loads, places or times, chi2 is largest.
+/// `good`: the likeliest cause first, if chi2 is loud or an effect is
+/// significant, then the doubts. Steps of converters are the cause before any
+/// effect if noise does not cover them and chi2 is not loud once the std of
+/// their gauges has step / sqrt(12) more. An effect is named only if it
+/// explains the residuals (JudgeEffects); if none does, the text says so, and
+/// in which gauge, and at which loads, places or rows, chi2 is largest.
 void WarnOfDoubts(const CalibrationProblem& problem, CalibrationResult* result);
 
 /// Says in words why what --explore has freed is not to be adopted; empty if it

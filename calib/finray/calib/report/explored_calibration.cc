@@ -52,7 +52,7 @@ ExploredCalibration CalibrateExplored(const Plan& given,
   }
   const auto freed = [](const Exploration::Step& step) { return step.kept; };
   const bool any = std::any_of(found.steps.begin(), found.steps.end(), freed);
-  std::string why_not;
+  std::string why_not, not_compared;
   if (any && done.result.Verdict() != "good") {
     try {
       ProblemAndResult as_given =
@@ -61,9 +61,7 @@ ExploredCalibration CalibrateExplored(const Plan& given,
       explored.as_given = !why_not.empty();
       if (explored.as_given) done = std::move(as_given);
     } catch (const std::runtime_error& error) {
-      found.failed.push_back(
-          std::string("calibration by the given plan, to compare: ") +
-          error.what());
+      not_compared = error.what();
     }
   }
   explored.problem = std::move(done.problem);
@@ -80,6 +78,14 @@ ExploredCalibration CalibrateExplored(const Plan& given,
         {"explore_step_failed", "--explore: " + failed,
          "the result is what was solved without that step; free the effect in "
          "the plan, with a prior, if you know that it is there"});
+  }
+  if (!not_compared.empty()) {
+    explored.result.warnings.push_back(
+        {"explore_step_failed",
+         "--explore: calibration by the given plan, to compare: " +
+             not_compared,
+         "the result has the freed effects, and nothing says whether the given "
+         "plan does better: check them against what you know of the setup"});
   }
   return explored;
 }

@@ -129,9 +129,9 @@ Eigen::MatrixXd Linearization::Information() const {
   return sum;
 }
 
-Eigen::MatrixXd Linearization::InformationOfLog(int log) const {
+Eigen::MatrixXd Linearization::InformationOfGroup(int group) const {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(gradient.size(), gradient.size());
-  for (const Eigen::MatrixXd& part : information.at(log)) sum += part;
+  for (const Eigen::MatrixXd& part : information.at(group)) sum += part;
   return sum;
 }
 

@@ -93,22 +93,23 @@ struct Linearization {
 
   double cost = 0;
   Eigen::VectorXd gradient;  ///< g
-  /// The parts of S, by log and residual family.
+  /// The parts of S, by group of frames and residual family. A group is a log,
+  /// or a stretch of it (WideLinearization).
   std::map<int, std::array<Eigen::MatrixXd, kResidualFamilies>> information;
   /// The sum of the leverages of the contacts, e_i (E'E)^-1 e_i', by family.
   std::array<double, kResidualFamilies> contact_leverage;
 
   /// At most `most_frames` frames can be added.
   explicit Linearization(int parameters = 0, std::size_t most_frames = 0);
-  /// Frames of one log should follow each other, else few rows are summed at a
-  /// time, which takes longer.
-  void Add(int frame, int log, const LinearizedFrame& at);
+  /// Frames of one group should follow each other, else few rows are summed at
+  /// a time, which takes longer.
+  void Add(int frame, int group, const LinearizedFrame& at);
   /// Call it after the last frame is added. `information` is not complete
   /// before.
   void Finish();
 
   Eigen::MatrixXd Information() const;  ///< S
-  Eigen::MatrixXd InformationOfLog(int log) const;
+  Eigen::MatrixXd InformationOfGroup(int group) const;
   Eigen::MatrixXd InformationOfFamily(int family) const;
 
  private:
