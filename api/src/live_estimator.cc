@@ -20,12 +20,14 @@ struct LiveEstimator::Inside {
   Inside(const finray::Finger& finger, const finray::Scene& scene,
          const finray::Discretization& discretization, FrameMethod method)
       : estimator(finger, scene, discretization, method),
-        history(finger, scene) {
+        history(finger, scene),
+        offsets_wander(scene.gauge_offset_walk.has_value()) {
     estimator.Prepare();
   }
 
   FrameEstimator estimator;
   HistoryFilter history;
+  bool offsets_wander;
   Measurements row;
   Frame frame;
 };
@@ -60,6 +62,10 @@ const Frame& LiveEstimator::Next(const Readings& readings) {
     row.object_angle_rad = readings.object_angle_deg * M_PI / 180;
     if (std::isnan(readings.time_s) && HasCreep(finger)) {
       throw InputError("time_s: is missing; gauges of the finger creep");
+    }
+    if (std::isnan(readings.time_s) && inside_->offsets_wander) {
+      throw InputError(
+          "time_s: is missing; the scene's gauge_offset_walk needs it");
     }
     if (!inside_->history.empty()) inside_->history.Remove(&row);
     const FrameEstimate estimate = inside_->estimator.Next(row);

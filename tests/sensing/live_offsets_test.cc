@@ -17,14 +17,15 @@ struct LiveTally {
 };
 
 LiveTally Followed(const WanderingLogSettings& settings,
-                   double told_V_per_sqrt_s) {
-  const WanderingLog log(PaperFinger(), {Scheme::kTaylor12, 96}, settings);
+                   double told_V_per_sqrt_s, double restart_s = INFINITY) {
+  WanderingLog log(PaperFinger(), {Scheme::kTaylor12, 96}, settings);
   Scene scene;
   scene.most_contacts = 1;
   scene.gauge_offset_walk = {0.02, told_V_per_sqrt_s};
   FrameEstimator estimator(PaperFinger(), scene);
   LiveTally tally;
   for (std::size_t t = 0; t < log.rows.size(); ++t) {
+    if (log.rows[t].time_s >= restart_s) log.rows[t].time_s -= restart_s;
     const FrameEstimate estimate = estimator.Next(log.rows[t]);
     const double truth = log.truth[t].normal_N;
     const ContactEstimate& contact = estimate.contact[0];
@@ -53,6 +54,16 @@ TEST(LiveOffsetsTest, ForcesUnderOffsetsThatWander) {
   EXPECT_EQ(tally.far, 0);
   // Frames of one touch err together.
   EXPECT_GT(tally.within, 0.85 * tally.ok);
+}
+
+TEST(LiveOffsetsTest, AClockThatStartsAnewHoldsNothingUp) {
+  WanderingLogSettings settings;
+  settings.duration_s = 300;
+  const LiveTally tally = Followed(settings, settings.walk_V_per_sqrt_s, 200);
+  EXPECT_GT(tally.ok, 0.5 * tally.touching);
+  EXPECT_GT(tally.free, 500);
+  EXPECT_LE(tally.missed, 0.01 * tally.touching);
+  EXPECT_EQ(tally.far, 0);
 }
 
 TEST(LiveOffsetsTest, DriftUnderLoadIsNoForce) {

@@ -208,6 +208,21 @@ TEST(LogEstimatorTest, AContactThatIsHeldDoesNotBecomeAnOffset) {
   }
 }
 
+// Each frame adds a little that draws the force, by its weak prior and by the
+// walk of its place. The frames of a long touch at a high rate are many.
+TEST(LogEstimatorTest, ManyFramesOfATouchDoNotDrawItsForce) {
+  WanderingLogSettings settings = Held(5);
+  settings.rate_Hz = 30;
+  settings.duration_s = 170;
+  settings.shortest_touch_s = settings.longest_touch_s = 160;
+  settings.shortest_gap_s = settings.longest_gap_s = 5;
+  settings.walk_V_per_sqrt_s = 1e-4;
+  const Tally tally = Judged(settings, 1e-4);
+  EXPECT_GT(tally.ok, 4500);
+  EXPECT_EQ(tally.far, 0);
+  EXPECT_EQ(tally.walk.Judge(), WalkIncrements::Verdict::kFits);
+}
+
 TEST(LogEstimatorTest, AContactThatIsHeldToTheEndIsNoOffset) {
   WanderingLogSettings settings = Held(3);
   settings.duration_s = 300;

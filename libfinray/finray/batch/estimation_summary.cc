@@ -242,6 +242,10 @@ void EmitChanges(const EstimationSummary& summary, YamlEmitter* yaml) {
         << std::vector<double>(walk.chi2.begin(), walk.chi2.end());
   *yaml << YAML::Key << "dof" << YAML::Value << YAML::Flow
         << std::vector<double>(walk.dof.begin(), walk.dof.end());
+  *yaml << YAML::Key << "weights" << YAML::Value << YAML::Flow
+        << std::vector<double>(walk.weights.begin(), walk.weights.end());
+  *yaml << YAML::Key << "weighted" << YAML::Value << YAML::Flow
+        << std::vector<double>(walk.weighted.begin(), walk.weighted.end());
   *yaml << YAML::Key << "moved_V" << YAML::Value << YAML::Flow << walk.moved_V;
   YamlPair(yaml, "moved_s", walk.moved_s);
   *yaml << YAML::EndMap;
@@ -260,13 +264,15 @@ void ReadChanges(const YamlMap& yaml, EstimationSummary* summary) {
   const YamlMap map = yaml.Map("gauge_offset_walk");
   WalkIncrements& walk = summary->walk;
   walk.told_V_per_sqrt_s = map.PositiveNumber("told_V_per_sqrt_s");
-  const std::vector<double> chi2 = map.Numbers("chi2"),
-                            dof = map.Numbers("dof");
-  for (std::size_t i = 0; i < std::min(chi2.size(), dof.size()); ++i) {
-    if (i >= WalkIncrements::kLags) break;
-    walk.chi2[i] = chi2[i];
-    walk.dof[i] = dof[i];
-  }
+  const auto read = [&map](const char* key, auto* to) {
+    const std::vector<double> numbers = map.Numbers(key);
+    std::copy_n(numbers.begin(), std::min(numbers.size(), to->size()),
+                to->begin());
+  };
+  read("chi2", &walk.chi2);
+  read("dof", &walk.dof);
+  read("weights", &walk.weights);
+  read("weighted", &walk.weighted);
   walk.moved_V = map.Numbers("moved_V");
   walk.moved_s = map.PositiveNumber("moved_s");
 }

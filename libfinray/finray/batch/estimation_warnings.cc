@@ -119,21 +119,27 @@ Warning WalkDiffers(const LogSummary& log, const Finger& /*finger*/,
   const Verdict verdict = walk.Judge();
   const std::string told =
       FormatText("std_V_per_sqrt_s: %.3g", walk.told_V_per_sqrt_s);
-  const std::string fitting = FormatText("%.2g", walk.FittingWalk());
+  const double fits = walk.FittingWalk();
+  const std::string fitting = FormatText("%.2g", fits);
+  const bool is_floor =
+      fits <= 1.01 * WalkIncrements::kLeastShare * walk.told_V_per_sqrt_s;
+  const std::string remedy =
+      "say std_V_per_sqrt_s: " + fitting + " in the scene's gauge_offset_walk";
   if (verdict == Verdict::kTooLarge) {
     return {"wide_offset_walk",
             "the offsets of " + name + " wander less than the scene's " + told +
-                " says: " + fitting +
+                " says: " + fitting + (is_floor ? " or less" : "") +
                 " fits. Contacts that are held come out less exact, or "
                 "unobservable",
-            "say " + fitting + " in the scene's gauge_offset_walk"};
+            remedy};
   }
-  const std::string unobservable = "; its contacts are unobservable";
+  const std::string unobservable =
+      "; its contacts are unobservable once that shows";
   if (verdict == Verdict::kTooSmall) {
     return {"offset_walk",
             "the offsets of " + name + " wander more than the scene's " + told +
                 " says: " + fitting + " fits" + unobservable,
-            "say " + fitting + " in the scene's gauge_offset_walk"};
+            remedy};
   }
   std::string drifts;
   for (const double moved_V : walk.moved_V) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finray/io/error.h"
+#include "finray/io/frame_vocabulary.h"
 
 namespace finray {
 
@@ -15,6 +16,12 @@ LiveRows::LiveRows(const Finger& finger, const Scene& scene,
       estimator_(*estimator),
       history_(finger, scene) {
   RequireTimeForCreep(finger, parser_.names(), parser_.path());
+  const std::vector<std::string>& names = parser_.names();
+  if (scene.gauge_offset_walk &&
+      std::find(names.begin(), names.end(), "time_s") == names.end()) {
+    throw InputError(parser_.path() + ": " + NoColumn("time_s", names) +
+                     "; the scene's gauge_offset_walk needs it");
+  }
   estimator_.Restart();
   estimator_.Prepare();
 }

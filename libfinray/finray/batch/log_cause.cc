@@ -54,6 +54,9 @@ struct Tried {
   double cost = 0;  // with what its numbers are charged
 };
 
+// The pairs of more gauges are too many to try.
+constexpr int kMostExchanged = 16;
+
 constexpr char kZero[] = "zero the gauges with finray_zero";
 constexpr char kCalibrate[] = "calibrate the finger anew, or look for damage";
 
@@ -69,7 +72,6 @@ class CauseSearch {
     World world{finger, scene, evidence.rows()};
     // The rows are estimated one by one.
     world.scene.smoothing.reset();
-    world.scene.gauge_offset_walk.reset();
     base_.world = std::move(world);
   }
 
@@ -463,9 +465,9 @@ class CauseSearch {
         Keep(Try(std::move(turned)),
              {"gauge " + std::to_string(j + 1) + " has the wrong sign", "",
               "swap its wires, or change the sign in `columns`", 1});
-        if (tried_.size() > before) break;
+        if (tried_.size() > before || twice_V == 0) break;
       }
-      for (int k = j + 1; k < gauges_; ++k) {
+      for (int k = j + 1; k < gauges_ && gauges_ <= kMostExchanged; ++k) {
         World exchanged = base_.world;
         for (Measurements& row : exchanged.rows) {
           std::swap(row.gauges_V[j], row.gauges_V[k]);
@@ -501,7 +503,8 @@ class CauseSearch {
            std::log(noise_ratio);
   }
 
-  // Mean of chi2 / dof of frames that `is` takes, over its std if it is 1.
+  // The sums of chi2, bounded by frame, and of dof of the frames that `is`
+  // takes.
   template <class Is>
   static std::pair<double, int> Excess(const Trial& trial, const Is& is) {
     double chi2 = 0;
@@ -750,6 +753,8 @@ LogCause FindLogCause(const LogEvidence& evidence, const Finger& finger,
     return {"the finger is not calibrated", "",
             "calibrate it with finray_calibrate"};
   }
+  // Frames one by one do not know where the offsets have wandered to.
+  if (scene.gauge_offset_walk) return {};
   return CauseSearch(evidence, finger, scene, discretization, threads).Find();
 }
 

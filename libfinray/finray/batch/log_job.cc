@@ -34,13 +34,13 @@ std::string WrittenText(const BatchSettings& settings) {
 
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 9\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
-      settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
-      "\nscheme " + SchemeName(settings.discretization.scheme) +
-      "\nresolution " + std::to_string(settings.discretization.resolution) +
-      "\nsolver " + SolverName(settings) + "\nblock_frames " +
-      std::to_string(kBlockFrames) + "\nwritten " + WrittenText(settings) +
-      "\n");
+      "results 10\nversion " FINRAY_VERSION "\nlog " + log_sha256 +
+      "\nfinger " + settings.finger_sha256 + "\nscene " +
+      settings.scene_sha256 + "\nscheme " +
+      SchemeName(settings.discretization.scheme) + "\nresolution " +
+      std::to_string(settings.discretization.resolution) + "\nsolver " +
+      SolverName(settings) + "\nblock_frames " + std::to_string(kBlockFrames) +
+      "\nwritten " + WrittenText(settings) + "\n");
 }
 
 std::size_t Count(const YamlMap& yaml, const std::string& key) {
@@ -83,7 +83,8 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
 LogCause CauseFromYaml(const YamlMap& yaml) {
   if (!yaml.Has("cause")) return {};
   const YamlMap cause = yaml.Map("cause");
-  return {cause.Text("words"), cause.Text("details"), cause.Text("remedy")};
+  return {cause.RawText("words"), cause.RawText("details"),
+          cause.RawText("remedy")};
 }
 
 LogSummary SummaryOf(const LogJob& job) {

@@ -56,8 +56,8 @@ bool IsSystemLink(const fs::path& path) {
   std::error_code unknown;
   const fs::path folder = fs::canonical(path.parent_path(), unknown);
   if (unknown || folder.empty()) return false;
-  const std::string root = (++folder.begin())->string();
-  return root == "dev" || root == "proc";
+  const auto root = std::next(folder.begin());
+  return root != folder.end() && (*root == "dev" || *root == "proc");
 }
 
 int WriteFile(const std::string& path, const std::string& content) {

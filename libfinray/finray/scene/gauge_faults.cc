@@ -267,6 +267,10 @@ std::optional<double> StepOf(std::vector<double> readings_V, double least) {
     if (gap > 1e-3 * least) step = std::min(step, gap);
   }
   if (!std::isfinite(step) || step < least) return {};
+  // Fewer values are multiples of something by chance.
+  readings_V.erase(std::unique(readings_V.begin(), readings_V.end()),
+                   readings_V.end());
+  if (readings_V.size() < 5) return {};
   // The whole range tells the step better than one of its gaps.
   const double range = readings_V.back() - readings_V.front();
   step = range / std::round(range / step);

@@ -20,7 +20,7 @@ struct GaugeFault {
   Kind kind;
   int gauge = 0;
   double step_V = 0;  ///< Of kCoarse.
-  /// "gauge 2 stands still at 0.123 V from row 31 to 80 while the others move".
+  /// "gauge 2 is stuck at 0.123 V from row 31 to 80 while the others move".
   std::string words;
 };
 

@@ -41,7 +41,9 @@ struct ContactEstimate {
   /// The part of the std that the declared noise makes. It differs from frame
   /// to frame, so the mean of n frames of one contact has the std
   /// sqrt(noise^2 / n + std^2 - noise^2). The rest is common to them: errors of
-  /// the calibration, of offsets that wander, and what the model misses.
+  /// the calibration, of offsets that wander, and what the model misses. The
+  /// scene's smoothing correlates the noise of frames that follow each other,
+  /// so there the mean of frames is less exact than this says.
   double arc_noise_mm = std::numeric_limits<double>::quiet_NaN();
   double normal_noise_N = std::numeric_limits<double>::quiet_NaN();
 };

@@ -30,16 +30,28 @@ void LiveOffsets::Restart() {
 }
 
 const Measurements& LiveOffsets::Correct(const Measurements& row) {
-  if (std::isnan(belief_.time_s)) {
-    belief_.time_s = old_.time_s = recent_.time_s =
-        std::isnan(row.time_s) ? 0 : row.time_s;
-  }
+  // A clock that starts, or starts anew: nothing says how much time has passed.
+  if (!(row.time_s >= belief_.time_s)) SetClock(row.time_s);
   if (row.time_s > belief_.time_s) {
     belief_.Wander(row.time_s, std::pow(walk_.std_V_per_sqrt_s, 2));
   }
   raw_ = row;
   MoveToOffsetsOf(finger_, belief_, row, &corrected_);
   return corrected_;
+}
+
+void LiveOffsets::SetClock(double time_s) {
+  if (std::isnan(time_s)) return;  // a row without a time
+  const double back_s = belief_.time_s - time_s;
+  if (std::isnan(back_s)) {
+    belief_.time_s = old_.time_s = recent_.time_s = time_s;
+    return;
+  }
+  for (OffsetBelief* belief : {&belief_, &old_, &recent_}) {
+    belief->time_s -= back_s;
+  }
+  touched_s_ -= back_s;
+  touch_.MoveClock(back_s);
 }
 
 void LiveOffsets::Judge(FrameEstimate* estimate) {

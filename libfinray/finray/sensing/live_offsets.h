@@ -37,6 +37,7 @@ class LiveOffsets {
 
  private:
   void Learn();
+  void SetClock(double time_s);
 
   Finger finger_;
   GaugeOffsetWalk walk_;

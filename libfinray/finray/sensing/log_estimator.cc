@@ -223,8 +223,13 @@ void LogEstimator::EstimateAlone(const std::vector<LogFrame>& frames,
     take_(estimate);
   }
   alone_ += settled;
+  // What the settled frames tell of the next one, of which the prior of a
+  // contact is no part.
+  const std::vector<OffsetBelief> there =
+      detection_.BeliefsBehind(BeliefBefore(), frames);
+  prior_ = {};
   if (settled == frames.size() || !scene_.gauge_offset_walk) return;
-  const OffsetBelief& next = beliefs[settled];
+  const OffsetBelief& next = there[settled];
   prior_ = {next.mean_V, next.variance_V2.cwiseInverse().asDiagonal()};
 }
 

@@ -26,6 +26,17 @@ constexpr double kLeastChange = 1e-4;
 // of f_c about what is expected of it in EI / l_0^2. They keep contacts that
 // the readings leave open from the far end of the beam and of the scale.
 constexpr double kArcPrior = 0.25, kForcePrior = 16;
+// What wandering offsets leave open of a contact is common to the frames of a
+// touch, and a weak prior of each frame draws them all the same way. So those
+// of a touch of more frames than this share what the priors of so many tell,
+// and the covariance counts them all as one.
+constexpr double kPriorFrames = 75;
+// A walk of l_c from frame to frame takes noise of the readings for motion. The
+// share that it leaves, about (noise / step)^2 of each frame, falls with the
+// force, so many frames draw their common force up. A step of this times
+// sqrt(frames of the touch) noises keeps the sum small. Only where the readings
+// leave l_c open by more than kOpen_mm the walk is what says where it is.
+constexpr double kStepOverNoise = 0.25, kOpen_mm = 3;
 
 }  // namespace
 
@@ -95,10 +106,12 @@ LogProblem::LogProblem(const Finger& finger, const Scene& scene,
         &evaluations_.Add(1, scene.friction_coefficient, contact(t));
     if (frame.state.q.size() > 0) evaluation_of_[t]->set_state(frame.state);
   }
+  CountTouches();
   for (std::size_t t = 0; t < frames->size(); ++t) {
     AddReadings(t);
-    if (t > 0) AddLink(t);
+    AddContactPrior(t);
   }
+  AddLinks();
   AddPrior(prior);
   FixWhatIsNotFree();
 }
@@ -124,15 +137,63 @@ void LogProblem::AddReadings(std::size_t t) {
     readings_[t].push_back(problem_->AddResidualBlock(
         block.cost.release(), loss_.get(), block.parameters));
   }
+}
+
+void LogProblem::AddContactPrior(std::size_t t) {
   if (!Touches(t)) return;
+  const LogFrame& frame = (*frames_)[t];
   const Eigen::Vector2d mean(frame.arc_mm, frame.expected_N);
   const Eigen::Vector2d std(kArcPrior * finger_.front_length_mm,
                             kForcePrior * ForceUnit(finger_));
+  const double wider =
+      std::sqrt(std::max(1.0, touch_frames_[t] / kPriorFrames));
   contact_priors_[t].push_back(problem_->AddResidualBlock(
-      ParameterPriorResidual::Create(mean, std), nullptr, contact(t)));
+      ParameterPriorResidual::Create(mean, wider * std), nullptr, contact(t)));
 }
 
-void LogProblem::AddLink(std::size_t t) {
+void LogProblem::CountTouches() {
+  touch_frames_.assign(frames_->size(), 1);
+  if (!scene_.gauge_offset_walk) return;
+  std::vector<std::size_t> touch;
+  for (std::size_t t = 0; t < frames_->size(); ++t) {
+    if (Touches(t)) touch.push_back(t);
+    const bool lasts = t + 1 < frames_->size() &&
+                       (*frames_)[t + 1].role != LogFrame::Role::kFree;
+    if (lasts) continue;
+    for (const std::size_t of : touch) {
+      touch_frames_[of] = static_cast<double>(touch.size());
+    }
+    touch.clear();
+  }
+}
+
+void LogProblem::AddLinks() {
+  const bool finds_steps = scene_.gauge_offset_walk && !scene_.smoothing;
+  const std::vector<double> least_mm =
+      finds_steps ? LeastSteps_mm() : std::vector<double>(frames_->size(), 0);
+  for (std::size_t t = 1; t < frames_->size(); ++t) {
+    AddLink(t, std::max(least_mm[t - 1], least_mm[t]));
+  }
+}
+
+// By the readings alone, at the start.
+std::vector<double> LogProblem::LeastSteps_mm() {
+  Linearize();
+  BlockTridiagonal own = Information();
+  std::vector<double> least_mm(frames_->size(), 0);
+  for (std::size_t t = 0; t < least_mm.size(); ++t) {
+    if (!Touches(t)) continue;
+    own.Add(jacobian_, residuals_, links_end_[t], readings_end_[t]);
+    const Eigen::Matrix2d contact = own.diagonal(t).bottomRightCorner<2, 2>();
+    const double noise_mm = std::sqrt(InverseInformation(contact)(0, 0));
+    if (noise_mm < kOpen_mm) {
+      least_mm[t] = kStepOverNoise * std::sqrt(touch_frames_[t]) * noise_mm;
+    }
+  }
+  return least_mm;
+}
+
+void LogProblem::AddLink(std::size_t t, double least_step_mm) {
   const double dt = (*frames_)[t].row.time_s - (*frames_)[t - 1].row.time_s;
   if (scene_.gauge_offset_walk) {
     for (std::size_t j = 0; j < gauges_; ++j) {
@@ -144,7 +205,7 @@ void LogProblem::AddLink(std::size_t t) {
   }
   if (!Linked(t)) return;
   const Smoothing change = scene_.smoothing.value_or(
-      Smoothing{kContactWalk_mm * std::sqrt(dt),
+      Smoothing{std::max(kContactWalk_mm * std::sqrt(dt), least_step_mm),
                 std::numeric_limits<double>::infinity()});
   links_[t].push_back(problem_->AddResidualBlock(
       new ContactChangeResidual(change.contact_mm, change.normal_N), nullptr,
@@ -268,6 +329,22 @@ void LogProblem::Linearize() {
   residuals_.clear();
   if (!rows.empty() && !options.parameter_blocks.empty()) {
     problem_->Evaluate(options, nullptr, &residuals_, nullptr, &jacobian_);
+    ShareContactPriors();
+  }
+}
+
+// The covariance counts the priors of a touch as one.
+void LogProblem::ShareContactPriors() {
+  for (std::size_t t = 0; t < touch_frames_.size(); ++t) {
+    if (contact_priors_[t].empty()) continue;
+    const double share =
+        1 / std::sqrt(std::min(touch_frames_[t], kPriorFrames));
+    for (int row = readings_end_[t]; row < readings_end_[t] + 2; ++row) {
+      residuals_[row] *= share;
+      for (int k = jacobian_.rows[row]; k < jacobian_.rows[row + 1]; ++k) {
+        jacobian_.values[k] *= share;
+      }
+    }
   }
 }
 

@@ -91,8 +91,10 @@ struct LogMarginal {
 ///   GaugeOffsetChangeResidual  each gauge, from frame to frame
 ///   ContactChangeResidual      from a contact to that of the next frame: as
 ///                              the scene's smoothing says, or else l_c by
-///                              kContactWalk_mm where the offsets wander
-///   ParameterPriorResidual     each contact, weak
+///                              kContactWalk_mm where the offsets wander, or
+///                              more in a long touch
+///   ParameterPriorResidual     each contact, weak; where offsets wander, those
+///                              of a touch count as one in the covariance
 ///   GaussianPriorResidual      on the first frame
 ///
 /// Unknowns of a frame: an offset in V for each gauge, in blocks of size 1, if
@@ -139,7 +141,12 @@ class LogProblem {
   }
   bool Linked(std::size_t t) const;
   void AddReadings(std::size_t t);
-  void AddLink(std::size_t t);
+  void AddContactPrior(std::size_t t);
+  void CountTouches();
+  void AddLinks();
+  std::vector<double> LeastSteps_mm();
+  void AddLink(std::size_t t, double least_step_mm);
+  void ShareContactPriors();
   void AddPrior(const LogPrior& prior);
   void FixWhatIsNotFree();
   void Linearize();
@@ -168,6 +175,9 @@ class LogProblem {
   std::vector<ceres::ResidualBlockId> prior_;
   std::vector<std::vector<ceres::ResidualBlockId>> readings_, links_,
       contact_priors_;
+  // Where offsets wander, the touching frames between the free frames on both
+  // sides of a frame; 1 elsewhere.
+  std::vector<double> touch_frames_;
   bool converged_ = false;
   // At the solution. Rows: the prior, then of each frame its links to the one
   // before, its readings and the prior of its contact.

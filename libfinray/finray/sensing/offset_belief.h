@@ -56,6 +56,8 @@ class HeldTouch {
   bool Lasts(const Finger& finger, const Eigen::VectorXd& beside_V,
              const Eigen::VectorXd& offsets_V) const;
   void End() { lasts_ = false; }
+  /// The clock has gone back by so much.
+  void MoveClock(double back_s) { time_s_ -= back_s; }
 
  private:
   bool lasts_ = false;

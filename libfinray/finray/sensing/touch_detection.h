@@ -59,6 +59,12 @@ class TouchDetection {
   std::vector<OffsetBelief> Beliefs(const OffsetBelief& before,
                                     const std::vector<LogFrame>& frames) const;
 
+  /// The same by the free frames before each frame.
+  std::vector<OffsetBelief> BeliefsBehind(
+      const OffsetBelief& before, const std::vector<LogFrame>& frames) const {
+    return FromOneSide(frames, before, true);
+  }
+
   /// Searches for the contact of a frame whose offsets have this mean and
   /// variance. False if the free finger explains it about as well, unless the
   /// scene says that every frame has a contact.

@@ -88,13 +88,22 @@ Kind KindOf(const Warning& warning) {
   }
   if (Contains(warning.text, " is dead") ||
       Contains(warning.text, " is stuck at ") ||
-      Contains(warning.text, " is clipped: ")) {
+      Contains(warning.text, " is clipped: ") ||
+      Contains(warning.text, " has the wrong sign") ||
+      Contains(warning.text, " are swapped")) {
     return Kind::kRepair;
   }
   if (Contains(warning.text, "offsets have moved") ||
       Contains(warning.text, "has slipped") ||
       Contains(warning.remedy, "zero the gauges")) {
     return Kind::kZero;
+  }
+  // The finger is as it was.
+  if (Contains(warning.text, "cause: the force sensor has") ||
+      Contains(warning.text, "cause: friction is not the scene's") ||
+      Contains(warning.text, "cause: readings are noisier") ||
+      Contains(warning.text, " has steps of ")) {
+    return Kind::kWatch;
   }
   return Kind::kCalibrate;
 }
