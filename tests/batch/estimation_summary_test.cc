@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "finray/io/yaml_emitter.h"
+#include "finray/io/yaml_map.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -26,21 +28,9 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
     readings.force_N = i % 7 ? 0.05 * i : std::nan("");
     summary.Add(estimate, 0.3, readings, finger);
   }
-  summary.walk.told_V_per_sqrt_s = 1e-3;
-  for (std::size_t i = 0; i < WalkIncrements::kLags; ++i) {
-    summary.walk.chi2[i] = 1000 + 10.0 * i;
-    summary.walk.dof[i] = 110;
-    summary.walk.weights[i] = 100;
-    summary.walk.weighted[i] = 900;
-  }
-  summary.walk.moved_V = {0.25, -0.5};
-  summary.walk.moved_s = 60;
   const auto back = SummaryFromText(SummaryToText(summary));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->frames, 100u);
-  EXPECT_EQ(back->walk.Judge(), WalkIncrements::Verdict::kTooSmall);
-  EXPECT_NEAR(back->walk.FittingWalk(), 3e-3, 1e-12);
-  EXPECT_EQ(back->walk.moved_V, summary.walk.moved_V);
   EXPECT_EQ(back->by_status, summary.by_status);
   // Three of five statuses are solved.
   EXPECT_EQ(summary.unexplained, 17u * 3);
@@ -60,6 +50,29 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
   EXPECT_FALSE(SummaryFromText(""));
   EXPECT_FALSE(SummaryFromText("1 2 3"));
   EXPECT_FALSE(SummaryFromText(SummaryToText(summary) + " 1"));
+}
+
+// A log that is resumed after its end gets the warning that it had.
+TEST(EstimationSummaryTest, ReadsBackTheWalk) {
+  EstimationSummary summary;
+  summary.walk.told_V_per_sqrt_s = 1e-3;
+  for (std::size_t i = 0; i < WalkIncrements::kLags; ++i) {
+    summary.walk.chi2[i] = 1000 + 10.0 * i;
+    summary.walk.dof[i] = 110;
+    summary.walk.weights[i] = 100;
+    summary.walk.weighted[i] = 900;
+  }
+  summary.walk.moved_V = {0.25, -0.5};
+  summary.walk.moved_s = 60;
+  YamlEmitter yaml;
+  yaml << YAML::BeginMap;
+  EmitChanges(summary, &yaml);
+  yaml << YAML::EndMap;
+  EstimationSummary back;
+  ReadChanges(YamlMap::FromText(yaml.c_str(), "summary"), &back);
+  EXPECT_EQ(back.walk.Judge(), WalkIncrements::Verdict::kTooSmall);
+  EXPECT_NEAR(back.walk.FittingWalk(), 3e-3, 1e-12);
+  EXPECT_EQ(back.walk.moved_V, summary.walk.moved_V);
 }
 
 // A force sensor of two axes says of the estimates what one of its magnitude

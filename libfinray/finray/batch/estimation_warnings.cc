@@ -174,8 +174,8 @@ Warning Alone(const LogSummary& log, const Finger& /*finger*/,
               " could not be solved together: the problem does not converge; " +
               std::to_string(summary.alone) + " of " +
               std::to_string(summary.frames) + " are estimated one by one",
-          "look for moved offsets and at start_std_V of the scene's "
-          "gauge_offset_walk"};
+          "look for moved offsets, and at the std of the scene's "
+          "gauge_offset_walk: too large ones leave a long touch open"};
 }
 
 Warning BadRows(const LogSummary& log, const Finger& /*finger*/,
