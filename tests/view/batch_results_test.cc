@@ -68,6 +68,17 @@ TEST(BatchResults, VerdictsFollowTheLatestWarnings) {
             Kind::kCalibrate);
   EXPECT_EQ(JudgedAs({}, {Log(late, {stiff}), Log(late, {dead})}),
             Kind::kRepair);
+  // The finger is as it was.
+  const std::string sensor = "likeliest cause: the force sensor has an offset";
+  EXPECT_EQ(
+      JudgedAs({}, {Log(late, {Of("forces_differ", sensor + "; estimated")})}),
+      Kind::kWatch);
+  EXPECT_EQ(JudgedAs({}, {Log(late, {Of("forces_differ",
+                                        sensor + ", or as well: stiffness")})}),
+            Kind::kCalibrate);
+  const Warning swapped = Of("unexplained_frames",
+                             "likeliest cause: gauges 1 and 2 are swapped; 9");
+  EXPECT_EQ(JudgedAs({}, {Log(late, {swapped})}), Kind::kRepair);
   EXPECT_EQ(JudgedAs({}, {Log(early, {stiff}), Log(late, {})}), Kind::kWatch);
   EXPECT_EQ(JudgedAs({}, {Log("", {stiff}), Log("", {})}), Kind::kCalibrate);
   const Warning never = Of("not_calibrated", "the finger is not calibrated");

@@ -33,6 +33,7 @@ struct World {
   Finger finger;
   Scene scene;
   Rows rows;
+  double force_noise_N = kForceStd_N;  // of the force sensor
 };
 
 // How well a world explains its rows.
@@ -128,7 +129,7 @@ class CauseSearch {
       trial->cost += std::min(
           kMostOfFrame, estimate.explained_chi2() +
                             FrameEstimator::kSignificance * estimate.contacts);
-      if (const auto error = ForceError(estimate, row, friction)) {
+      if (const auto error = ForceError(estimate, row, trial->world)) {
         trial->cost += std::min(kMostOfFrame, *error * *error);
       }
     }
@@ -137,19 +138,19 @@ class CauseSearch {
   // The error of a force over its std.
   static std::optional<double> ForceError(const FrameEstimate& estimate,
                                           const Measurements& row,
-                                          double coefficient) {
+                                          const World& world) {
     if (estimate.status != FrameStatus::kOk &&
         estimate.status != FrameStatus::kNoContact) {
       return {};
     }
-    const double friction = row.FrictionOr(coefficient);
+    const double friction = row.FrictionOr(world.scene.friction_coefficient);
     const double force_N = row.Force().magnitude_N;
     if (!std::isfinite(force_N)) return {};
     const double std_N = estimate.status == FrameStatus::kOk
                              ? EstimatedForceStd(estimate, friction)
                              : 0;
     const double error = (EstimatedForce(estimate, friction) - force_N) /
-                         std::hypot(std_N, kForceStd_N);
+                         std::hypot(std_N, world.force_noise_N);
     return std::isfinite(error) ? std::optional(error) : std::nullopt;
   }
 
@@ -217,7 +218,7 @@ class CauseSearch {
         const Eigen::MatrixXd a = weights.asDiagonal() * errors->by_contact;
         const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
         const Eigen::MatrixXd follow = qr.solve(b);  // -dx/dp
-        AddForce(estimate, row, friction, follow, weight, &step);
+        AddForce(estimate, row, at.world, follow, weight, &step);
         b -= a * follow;
       }
       step.information += weight * b.transpose() * b;
@@ -227,13 +228,13 @@ class CauseSearch {
   }
 
   static void AddForce(const FrameEstimate& estimate, const Measurements& row,
-                       double coefficient, const Eigen::MatrixXd& follow,
+                       const World& world, const Eigen::MatrixXd& follow,
                        double weight, Step* step) {
-    const auto error = ForceError(estimate, row, coefficient);
+    const auto error = ForceError(estimate, row, world);
     if (!error || estimate.contacts != 1) return;
-    const double friction = row.FrictionOr(coefficient);
+    const double friction = row.FrictionOr(world.scene.friction_coefficient);
     const double std_N =
-        std::hypot(EstimatedForceStd(estimate, friction), kForceStd_N);
+        std::hypot(EstimatedForceStd(estimate, friction), world.force_noise_N);
     const Eigen::VectorXd by =
         -std::hypot(1, friction) / std_N * follow.row(1).transpose();
     weight *= 1 / std::max(1.0, std::abs(*error) / 3);
@@ -629,6 +630,7 @@ class CauseSearch {
         row.force_N = factor * row.Force().magnitude_N + offset_N;
         row.force_xy_N.setConstant(Measurements::kNotMeasured);
       }
+      world.force_noise_N *= factor;
       Keep(Try(std::move(world)), std::move(cause));
     };
     if (IsPossible(*scale)) {

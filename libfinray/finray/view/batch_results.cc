@@ -98,11 +98,12 @@ Kind KindOf(const Warning& warning) {
       Contains(warning.remedy, "zero the gauges")) {
     return Kind::kZero;
   }
-  // The finger is as it was.
-  if (Contains(warning.text, "cause: the force sensor has") ||
-      Contains(warning.text, "cause: friction is not the scene's") ||
-      Contains(warning.text, "cause: readings are noisier") ||
-      Contains(warning.text, " has steps of ")) {
+  // The finger is as it was, if nothing else explains the rows as well.
+  const bool alone = !Contains(warning.text, ", or as well: ");
+  if (alone && (Contains(warning.text, "cause: the force sensor has") ||
+                Contains(warning.text, "cause: friction is not the scene's") ||
+                Contains(warning.text, "cause: readings are noisier") ||
+                Contains(warning.text, " has steps of "))) {
     return Kind::kWatch;
   }
   return Kind::kCalibrate;

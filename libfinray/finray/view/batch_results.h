@@ -60,11 +60,11 @@ const char* VerdictName(FingerVerdict::Kind kind);
 
 /// Judges a finger by the warnings of its latest logs: those of the last day
 /// that has any, or all where no day is known.
-///  - kRepair: a gauge is dead, stuck or clipped;
+///  - kRepair: a gauge is dead, stuck or clipped, or gauges are wired wrongly;
 ///  - kCalibrate: nobody has calibrated it, or frames are unexplained or forces
-///    differ and neither offsets nor a gauge are the cause;
+///    differ and the finger may be the cause;
 ///  - kZero: the offsets have moved, or a gauge has slipped;
-///  - kWatch: another warning, or a stronger one on an earlier day;
+///  - kWatch: another warning or cause, or a stronger one on an earlier day;
 ///  - kUnchecked: no warning, but no frame with contact has the force of a
 ///    sensor beside it: free rows show no wrong gain or stiffness;
 ///  - kGood: none of these.
