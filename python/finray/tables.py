@@ -38,7 +38,7 @@ def _of_objects(name: str, array: Any) -> Union[Floats, None]:
         return None
     try:
         return np.array([np.nan if _is_missing(value) else float(value) for value in array])
-    except OverflowError:
+    except (OverflowError, ValueError):  # a signaling NaN, too
         raise InputError(f"column '{name}': expected numbers that a double holds") from None
 
 

@@ -34,11 +34,14 @@ def _child(function, argument, size, writer):
             pickle.dump((True, result), file, pickle.HIGHEST_PROTOCOL)
 
 
+MOST_WAIT_MS = 2**31 - 1  # of poll
+
+
 def _await(reader, child, size):
     """Waits for the first bytes. A child that waits for a device, say, uses no CPU and never ends."""
     told = select.poll()
     told.register(reader, select.POLLIN)
-    if not told.poll(1000 * limits.WAIT_RATIO * limits.seconds(size)):
+    if not told.poll(min(MOST_WAIT_MS, 1000 * limits.WAIT_RATIO * limits.seconds(size))):
         os.kill(child, signal.SIGKILL)
         raise limits.TooLong
 

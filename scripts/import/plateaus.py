@@ -99,17 +99,19 @@ def average(recordings, shortest_s):
         counts = {}
         for name, values in r.channels.items():
             runs = [values[a:b][np.isfinite(values[a:b])] for a, b in ranges]
+            of_rows = r.readings.get(name)  # rows of one time are their mean
             columns[name] = np.array([run.mean() if len(run) else np.nan for run in runs])
             kind = name.split("_")[0]
-            own = np.array([len(run) for run in runs])
+            own = np.array([len(run) if of_rows is None else of_rows[a:b].sum() for run, (a, b) in zip(runs, ranges)])
             there = counts.setdefault(kind, own)
             # Of channels that read at different times the one that reads least; a dead one does not count.
             counts[kind] = np.where((own > 0) & (there > 0), np.minimum(own, there), np.maximum(own, there))
             spread = np.array([run.std(ddof=1) if len(run) > 1 else np.nan for run in runs])
+            spread *= np.sqrt(own / np.maximum(1, [len(run) for run in runs]))
             scatters[scatter_name(name)] = spread
             if np.isfinite(spread).any():
                 one = float(np.sqrt(np.nanmean(spread**2)))
-                count, factor = np.median([len(run) for run in runs if len(run)]), mean_std_factor(runs)
+                count, factor = np.median(own[own > 0]), mean_std_factor(runs)
                 noise.append((name, one, one / np.sqrt(count) * factor))
                 worth[kind] = max(worth[kind], factor**2)
         for kind, readings in sorted(worth.items()):

@@ -33,6 +33,7 @@ class Recording:
         self.stamps = self.seconds = self.time = None
         self.offset_s, self.offset_std_s = 0.0, None
         self.same_times = 0  # rows that have the time of the row before
+        self.readings = {}  # by channel, of how many each row is the mean; one each where it is not here
 
     def has(self, *stems):
         return any(name.startswith(stem) for name in self.channels for stem in stems)
@@ -194,13 +195,17 @@ def tell_equal_times(recording, joins):
     at = recording.stamps if recording.seconds is None else recording.seconds
     steps = np.diff(at)
     first = np.concatenate(([0], np.flatnonzero(steps > 0) + 1))
-    step_s = np.median(steps[steps > 0]) / (1e9 if recording.seconds is None else 1) if len(first) > 1 else np.inf
+    if len(first) == 1:
+        raise BadInput(f"{recording.table.path}: all rows of {name} have one time, so they cannot be joined with the others")
+    step_s = np.median(steps[steps > 0]) / (1e9 if recording.seconds is None else 1)
     differ = np.any([_differ(values, first) for values in recording.channels.values()], axis=0)
     tied = np.sum((np.diff(first, append=len(at)) - 1)[differ])
     if step_s > MOST_STEP_S * (1 + 1e-6) and tied >= COARSE_SHARE * len(steps):
         raise BadInput(f"{recording.table.path}: {same}: its clock steps by {step_s:.3g} s, which is too coarse to join it "
                        f"with the others by time; a clock that steps by {MOST_STEP_S:g} s or less will do")
     for channel, values in recording.channels.items():
+        count = np.add.reduceat(np.isfinite(values).astype(int), first)
+        recording.readings[channel] = np.where(_differ(values, first), count, np.minimum(count, 1))  # copies tell nothing
         recording.channels[channel] = _means(values, first, channel.endswith("_deg"))
     if recording.seconds is None:
         recording.stamps = recording.stamps[first]

@@ -76,6 +76,24 @@ class JoinTest(ImportCase):
         self.assertEqual(said, ["warning: f.csv: 1500 of the 2000 rows of f.csv have the time of the row before; rows of "
                                 "one time become their mean, one every 0.004 s"])
 
+    def test_plateaus_count_the_readings_of_packets(self):
+        time = 0.01 * np.arange(3000)
+        gauge = 0.1 * np.floor(time / 10) + 1e-4 * np.random.default_rng(1).standard_normal(3000)
+        force = self.write("f.csv", table(["time_s", "force_N"], [(0.1 * i, float(i // 100)) for i in range(300)]))
+        logs = []
+        for stamps in (time, np.floor(time / 0.05 + 1e-9) * 0.05):
+            gauges = self.write("g.csv", table(["time_s", "gauge_1_V"], np.stack((stamps, gauge), axis=1)))
+            log = self.log_of("--logs", f"{gauges},{force}", "--force_time_offset_s", "0", "--force_bias_N", "0", "--plateaus")
+            logs.append({name: np.array(cells, dtype=float) for name, cells in log.items()})
+        for name in ("gauge_1_scatter_V", "gauge_readings"):
+            np.testing.assert_allclose(logs[1][name], logs[0][name], rtol=0.2)
+
+    def test_a_table_of_one_time_is_not_joined(self):
+        force = self.write("f.csv", table(["time_s", "force_N"], [(0.1 * i, 1) for i in range(99)]))
+        gauges = self.write("g.csv", table(["time_s", "gauge_1_V"], [(7, 0.1 * i) for i in range(99)]))
+        line = self.refused("--logs", f"{force},{gauges}", "--force_time_offset_s", "0")
+        self.assertIn("g.csv: all rows of g.csv have one time", line)
+
     def test_rows_that_are_there_twice_are_no_coarse_clock(self):
         """At 5 Hz, each row twice; and a gauge and a force in rows of their own."""
         twice = [(0.2 * (i // 2), 0.1 * (i // 2)) for i in range(80)]

@@ -24,6 +24,10 @@ MOST_MB, MOST_SECONDS = 1000, 10
 ZEROS, MAT_ZEROS = 96 << 20, 300 << 20  # MAT has no sizes to look at before
 
 
+def length_of(text):
+    return len(text)
+
+
 def packed_zeros(compressor, count=ZEROS, filler=b"\0" * (1 << 20)):
     out = b"".join(compressor.compress(filler) for _ in range(count // len(filler)))
     return out + compressor.flush()
@@ -207,6 +211,9 @@ class LimitsTest(ImportCase):
         self.assertIn(stated, (ROOT / "libfinray/finray/io/line_reader.cc").read_text("utf-8"))
         said = f"{limits.LEAST_UNPACKED >> 20} MiB and {limits.UNPACKED_RATIO} times its size"
         self.assertIn(said, (ROOT / "docs/reference/formats.md").read_text("utf-8"))
+
+    def test_a_file_of_terabytes_may_take_long(self):
+        self.assertEqual(isolated.call(length_of, "abc", 10**13), 3)
 
     def test_a_reader_that_does_not_end_is_stopped(self):
         """A child that only computes, and one that takes memory, as a library in C does."""

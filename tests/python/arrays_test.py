@@ -146,7 +146,7 @@ class ArraysTest(unittest.TestCase):
 
     def test_columns_that_nobody_uses_refuse_no_log(self):
         ones = np.ones(3)
-        for values in (ones + 1j, np.zeros(3, "V4"), np.zeros((3, 2)), 1.0, [10**400, 1, None]):
+        for values in (ones + 1j, np.zeros(3, "V4"), np.zeros((3, 2)), 1.0, [10**400, 1, None], [decimal.Decimal("sNaN"), 1, 2]):
             self.assertEqual(list(table({"time_s": ones, "mine": values})), ["time_s"])
         self.assertEqual(table({"note": ["\udc80", "a"], "\udc80": [1.0, 2.0]})["note"].tolist(), ["?", "a"])
 

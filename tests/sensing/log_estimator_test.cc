@@ -267,6 +267,25 @@ TEST(LogEstimatorTest, AWalkThatIsLargerThanToldIsFound) {
   EXPECT_EQ(told.walk.Judge(), WalkIncrements::Verdict::kFits);
 }
 
+// Of the odd row no finger has an equilibrium.
+TEST(LogEstimatorTest, OneOddRowLeavesTheOthers) {
+  std::vector<Measurements> rows(21);
+  for (std::size_t t = 0; t < rows.size(); ++t) {
+    rows[t].time_s = 0.1 * static_cast<double>(t);
+    rows[t].gauges_V = {0, 0, 0, 0};
+  }
+  rows[10].gauges_V = {0.036, -0.3524, -0.0401, 0.5546};
+  Scene scene;
+  scene.gauge_offset_walk = {0.05, 1e-4};
+  const std::vector<FrameEstimate> estimates = Estimate(scene, rows);
+  ASSERT_EQ(estimates.size(), rows.size());
+  for (std::size_t t = 0; t < rows.size(); ++t) {
+    EXPECT_EQ(estimates[t].status,
+              t == 10 ? FrameStatus::kUnobservable : FrameStatus::kNoContact)
+        << t;
+  }
+}
+
 TEST(LogEstimatorTest, ASceneWithoutContactsHasNone) {
   WanderingLogSettings settings;
   settings.duration_s = 30;

@@ -76,6 +76,13 @@ TEST(BatchResults, VerdictsFollowTheLatestWarnings) {
   EXPECT_EQ(JudgedAs({}, {Log(late, {Of("forces_differ",
                                         sensor + ", or as well: stiffness")})}),
             Kind::kCalibrate);
+  const std::string both = ", or as well: friction is not the scene's; of";
+  EXPECT_EQ(JudgedAs({}, {Log(late, {Of("forces_differ", sensor + both)})}),
+            Kind::kWatch);
+  const Warning either = Of("unexplained_frames",
+                            "likeliest cause: the gauges' offsets have moved, "
+                            "or as well: gauge 1 has the wrong sign; 9");
+  EXPECT_EQ(JudgedAs({}, {Log(late, {either})}), Kind::kZero);
   const Warning swapped = Of("unexplained_frames",
                              "likeliest cause: gauges 1 and 2 are swapped; 9");
   EXPECT_EQ(JudgedAs({}, {Log(late, {swapped})}), Kind::kRepair);

@@ -14,10 +14,11 @@ LiveRows::LiveRows(const Finger& finger, const Scene& scene,
     : parser_(parser),
       layout_(finger, scene, parser_, format),
       estimator_(*estimator),
-      history_(finger, scene) {
+      history_(finger, scene),
+      offsets_wander_(scene.gauge_offset_walk.has_value()) {
   RequireTimeForCreep(finger, parser_.names(), parser_.path());
   const std::vector<std::string>& names = parser_.names();
-  if (scene.gauge_offset_walk &&
+  if (offsets_wander_ &&
       std::find(names.begin(), names.end(), "time_s") == names.end()) {
     throw InputError(parser_.path() + ": " + NoColumn("time_s", names) +
                      "; the scene's gauge_offset_walk needs it");
@@ -33,6 +34,10 @@ const std::string& LiveRows::Next(const CsvLine& line) {
   try {
     parser_.Parse(line, &rows_);
     layout_.Read(rows_, 0, &readings_);
+    if (offsets_wander_ && std::isnan(readings_.time_s)) {
+      throw InputError(
+          "time_s: is missing; the scene's gauge_offset_walk needs it");
+    }
     if (!history_.empty()) {
       raw_ = readings_;
       history_.Remove(&readings_);

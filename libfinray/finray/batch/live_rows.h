@@ -47,6 +47,7 @@ class LiveRows {
   ResultLayout layout_;
   FrameEstimator& estimator_;
   HistoryFilter history_;
+  const bool offsets_wander_;
   FrameRows rows_;
   Measurements readings_, raw_;
   std::vector<double> values_;  // memory, reused by the next row

@@ -181,6 +181,7 @@ std::vector<double> LogProblem::LeastSteps_mm() {
   Linearize();
   BlockTridiagonal own = Information();
   std::vector<double> least_mm(frames_->size(), 0);
+  if (jacobian_.num_rows == 0) return least_mm;
   for (std::size_t t = 0; t < least_mm.size(); ++t) {
     if (!Touches(t)) continue;
     own.Add(jacobian_, residuals_, links_end_[t], readings_end_[t]);
@@ -327,10 +328,13 @@ void LogProblem::Linearize() {
   }
   jacobian_ = {};
   residuals_.clear();
-  if (!rows.empty() && !options.parameter_blocks.empty()) {
-    problem_->Evaluate(options, nullptr, &residuals_, nullptr, &jacobian_);
-    ShareContactPriors();
+  if (rows.empty() || options.parameter_blocks.empty()) return;
+  if (!problem_->Evaluate(options, nullptr, &residuals_, nullptr, &jacobian_)) {
+    jacobian_ = {};  // a frame has no equilibrium
+    residuals_.clear();
+    return;
   }
+  ShareContactPriors();
 }
 
 // The covariance counts the priors of a touch as one.

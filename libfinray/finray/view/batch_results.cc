@@ -81,16 +81,41 @@ bool Contains(const std::string& text, const char* words) {
   return text.find(words) != std::string::npos;
 }
 
+// The causes in "likeliest cause: ..., or as well: ...; ", the likeliest first.
+std::vector<std::string> CausesIn(const std::string& text) {
+  static const std::string begin = "likeliest cause: ", next = ", or as well: ";
+  std::size_t at = text.find(begin);
+  if (at == std::string::npos) return {};
+  at += begin.size();
+  const std::string all = text.substr(at, text.find("; ", at) - at);
+  std::vector<std::string> causes;
+  for (at = 0;; at += next.size()) {
+    const std::size_t end = all.find(next, at);
+    causes.push_back(all.substr(at, end - at));
+    if (end == std::string::npos) return causes;
+    at = end;
+  }
+}
+
+// The finger is as it was.
+bool IsBeside(const std::string& cause) {
+  return Contains(cause, "the force sensor has") ||
+         Contains(cause, "friction is not the scene's") ||
+         Contains(cause, "readings are noisier") ||
+         Contains(cause, " has steps of ");
+}
+
 // What one warning of a log asks for.
 Kind KindOf(const Warning& warning) {
   if (warning.code != "unexplained_frames" && warning.code != "forces_differ") {
     return Kind::kWatch;
   }
-  if (Contains(warning.text, " is dead") ||
-      Contains(warning.text, " is stuck at ") ||
-      Contains(warning.text, " is clipped: ") ||
-      Contains(warning.text, " has the wrong sign") ||
-      Contains(warning.text, " are swapped")) {
+  const std::vector<std::string> causes = CausesIn(warning.text);
+  const std::string first = causes.empty() ? "" : causes.front();
+  if (Contains(first, " is dead") || Contains(first, " is stuck at ") ||
+      Contains(first, " is clipped: ") ||
+      Contains(first, " has the wrong sign") ||
+      Contains(first, " are swapped")) {
     return Kind::kRepair;
   }
   if (Contains(warning.text, "offsets have moved") ||
@@ -98,12 +123,7 @@ Kind KindOf(const Warning& warning) {
       Contains(warning.remedy, "zero the gauges")) {
     return Kind::kZero;
   }
-  // The finger is as it was, if nothing else explains the rows as well.
-  const bool alone = !Contains(warning.text, ", or as well: ");
-  if (alone && (Contains(warning.text, "cause: the force sensor has") ||
-                Contains(warning.text, "cause: friction is not the scene's") ||
-                Contains(warning.text, "cause: readings are noisier") ||
-                Contains(warning.text, " has steps of "))) {
+  if (!causes.empty() && std::all_of(causes.begin(), causes.end(), IsBeside)) {
     return Kind::kWatch;
   }
   return Kind::kCalibrate;

@@ -92,7 +92,11 @@ std::optional<double> ImpossibleBound(const CalibrationParameter& parameter,
   const double at = *parameter.variable;
   const double value = parameter.Value(at);
   const double off = kImpossibleStd * parameter.ValueStd(at, std);
-  if (value + off < effect.least) return effect.least;
+  // The sign of friction is its direction.
+  const double least = FrontFamilyOf(parameter.family) == Family::kFriction
+                           ? -effect.most
+                           : effect.least;
+  if (value + off < least) return least;
   if (value - off > effect.most) return effect.most;
   return {};
 }

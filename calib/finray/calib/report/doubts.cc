@@ -81,9 +81,10 @@ void DoubtImpossible(const CalibrationParameters& parameters,
     if (!bound) continue;
     const double value = p.Value(*p.variable);
     doubts->push_back(
-        p.name + FormatText(" is %.3g +- %.1g, and no finger has %s than %.3g",
-                            value, p.ValueStd(*p.variable, found.std[k]),
-                            value < *bound ? "less" : "more", *bound));
+        p.name +
+        FormatText(" is %.3g +- %.1g, and no finger or bench has %s than %.3g",
+                   value, p.ValueStd(*p.variable, found.std[k]),
+                   value < *bound ? "less" : "more", *bound));
   }
 }
 
