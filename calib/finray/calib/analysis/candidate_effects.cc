@@ -93,9 +93,10 @@ std::optional<double> ImpossibleBound(const CalibrationParameter& parameter,
   const double value = parameter.Value(at);
   const double off = kImpossibleStd * parameter.ValueStd(at, std);
   // The sign of friction is its direction.
-  const double least = FrontFamilyOf(parameter.family) == Family::kFriction
-                           ? -effect.most
-                           : effect.least;
+  const double least =
+      FrontFamilyOf(parameter.family) == ParameterFamily::kFriction
+          ? -effect.most
+          : effect.least;
   if (value + off < least) return least;
   if (value - off > effect.most) return effect.most;
   return {};
