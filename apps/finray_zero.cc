@@ -126,6 +126,18 @@ int Run() {
         j + 1, zeroed.finger.gauges[j].offset_V, 1e3 * zeroed.change_V[j],
         1e3 * zeroed.std_V[j]);
   }
+  for (std::size_t j = 0; j < zeroed.scatter_V.size(); ++j) {
+    const double noise_V = zeroed.finger.gauges[j].noise_V;
+    if (zeroed.fewest < kFewZeroRows ||
+        zeroed.scatter_V[j] > kStill * noise_V) {
+      continue;
+    }
+    std::fprintf(stderr,
+                 "warning: gauge %zu hardly moves, by %.2g mV in %zu rows; its "
+                 "noise_V is %.2g mV: look whether it is dead, stuck or in "
+                 "another unit\n",
+                 j + 1, 1e3 * zeroed.scatter_V[j], zeroed.rows, 1e3 * noise_V);
+  }
   if (zeroed.fewest < kFewZeroRows) {
     std::fprintf(stderr,
                  "warning: %zu readings of a gauge are few: the std of offsets "

@@ -17,9 +17,12 @@ def _umask():
 
 def write(path, data):
     """Writes bytes, or text as UTF-8, under a new name beside `path` and gives the file its own name.
-    A link at `path` is replaced."""
+    A link at `path` is replaced. A device or a pipe is written to."""
     path = pathlib.Path(path)
     try:
+        if path.exists() and not path.is_file() and not path.is_dir():
+            path.write_bytes(data.encode() if isinstance(data, str) else data)
+            return
         descriptor, part = tempfile.mkstemp(prefix=".finray-", suffix=".tmp", dir=path.parent)
         try:
             with os.fdopen(descriptor, "wb") as file:

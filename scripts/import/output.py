@@ -34,8 +34,12 @@ def _write_all(files):
     parts = {}
     try:
         for path, blocks in files.items():
+            if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+                with open(path, "wb") as file:  # a device or a pipe
+                    file.writelines(blocks)
+                continue
             parts[path] = _part(path, blocks)
-        for path in files:
+        for path in list(parts):
             os.replace(parts[path], path)
             del parts[path]
     except OSError as error:

@@ -91,6 +91,13 @@ class NewcomerInputTest(unittest.TestCase):
             done = self.run_tool("zero", f"{zero}free.csv --zero_rows 1:{last}")
             self.assertEqual((done.returncode, f"warning: {last} readings" in done.stderr), (0, warned), done.stderr)
 
+    def test_dead_gauges_are_not_zeroed_without_a_word(self):
+        names = ",".join(f"gauge_{j}_V" for j in range(1, 5))
+        (self.folder / "dead.csv").write_text("\n".join([names] + ["0.001,0.001,0.001,0.001"] * 50))
+        done = self.run_tool("zero", f"--finger {FINGER} --out out --logs dead.csv --zero_rows 1:50 --allow_touch")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("hardly moves, by 0 mV in 50 rows"), 4)
+
     def test_mixed_up_units_are_implausible(self):
         for flags, words in (("--width_mm 20 --thickness_mm 1 --youngs_modulus_GPa 7000", "both beams: a modulus of 7000 GPa"),
                              ("--width_mm 20 --thickness_mm 0.001 --youngs_modulus_GPa 7", "both beams: 0.001 mm is thinner than foil; is it in m?"),

@@ -11,6 +11,10 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMMON = ROOT / "scripts/common"
+sys.path.append(str(COMMON))
+
+import figure_file  # noqa: E402
+
 SCRIPT = """
 import sys
 sys.path.append({common!r})
@@ -114,6 +118,20 @@ class GuardTest(unittest.TestCase):
                                   capture_output=True, text=True, env={**os.environ, "PATH": folder})
         self.assertEqual((done.returncode, done.stderr),
                          (2, "docs_site: needs doxygen: scripts/install_dependencies site\n"))
+
+
+class WholeFileTest(unittest.TestCase):
+    def test_a_pipe_stays_a_pipe(self):
+        with tempfile.TemporaryDirectory() as where:
+            path = pathlib.Path(where, "pipe")
+            os.mkfifo(path)
+            reader = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+            try:
+                figure_file.whole_file.write(path, "all of it")
+                self.assertEqual(os.read(reader, 100), b"all of it")
+            finally:
+                os.close(reader)
+            self.assertTrue(path.is_fifo())
 
 
 class FigureFileTest(unittest.TestCase):

@@ -123,13 +123,17 @@ Warning WalkDiffers(const LogSummary& log, const Finger& /*finger*/,
   const std::string fitting = FormatText("%.2g", fits);
   const bool is_floor =
       fits <= 1.01 * WalkIncrements::kLeastShare * walk.told_V_per_sqrt_s;
+  // At the floor nothing is told but that the walk is far smaller.
   const std::string remedy =
-      "say std_V_per_sqrt_s: " + fitting + " in the scene's gauge_offset_walk";
+      is_floor ? "say the walk that a free finger shows in the scene's "
+                 "gauge_offset_walk"
+               : "say std_V_per_sqrt_s: " + fitting +
+                     " in the scene's gauge_offset_walk";
   if (verdict == Verdict::kTooLarge) {
     return {"wide_offset_walk",
             "the offsets of " + name + " wander less than the scene's " + told +
-                " says: " + fitting + (is_floor ? " or less" : "") +
-                " fits. Contacts that are held come out less exact, or "
+                " says" + (is_floor ? "" : ": " + fitting + " fits") +
+                ". Contacts that are held come out less exact, or "
                 "unobservable",
             remedy};
   }

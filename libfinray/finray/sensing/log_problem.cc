@@ -19,7 +19,7 @@ namespace {
 
 // In std: one reading in 400 is beyond it by noise alone.
 constexpr double kHuberScale = 3;
-constexpr int kMostSolverIterations = 50;
+constexpr int kMostSolverIterations = 150;
 // The solve ends when the cost, about one a frame, falls by less than this.
 constexpr double kLeastChange = 1e-4;
 // What is known of a contact beforehand: std of l_c about its start in l_0, and

@@ -175,7 +175,7 @@ ZeroedFinger ZeroGauges(const Finger& finger,
                         const Discretization& discretization,
                         const std::vector<Measurements>& free_rows,
                         const std::string& source, const ZeroCheck& check) {
-  ZeroedFinger zeroed{finger, free_rows.size(), {}, {}, free_rows.size()};
+  ZeroedFinger zeroed{finger, free_rows.size(), {}, {}, {}, free_rows.size()};
   Measurements means;
   const Eigen::VectorXd free_V = FreeVolts(finger, discretization);
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
@@ -197,6 +197,7 @@ ZeroedFinger ZeroGauges(const Finger& finger,
                      1e3 * of.scatter, 1e3 * gauge.noise_V));
     }
     means.gauges_V.push_back(of.mean);
+    zeroed.scatter_V.push_back(of.scatter);
     zeroed.fewest = std::min(zeroed.fewest, of.count);
     const double offset = of.mean - free_V[j];
     zeroed.change_V.push_back(offset - gauge.offset_V);

@@ -21,10 +21,11 @@ struct ZeroCheck {
 /// A finger whose gauges were zeroed.
 struct ZeroedFinger {
   Finger finger;
-  std::size_t rows = 0;          ///< The number of readings.
-  std::vector<double> change_V;  ///< New offset less the old one, by gauge.
-  std::vector<double> std_V;     ///< Of the mean reading, by gauge.
-  std::size_t fewest = 0;        ///< Readings of the gauge with the fewest.
+  std::size_t rows = 0;           ///< The number of readings.
+  std::vector<double> change_V;   ///< New offset less the old one, by gauge.
+  std::vector<double> std_V;      ///< Of the mean reading, by gauge.
+  std::vector<double> scatter_V;  ///< Std of one reading, by gauge.
+  std::size_t fewest = 0;         ///< Readings of the gauge with the fewest.
 };
 
 /// Sets the offsets by n readings of the free finger,
@@ -62,6 +63,8 @@ Eigen::VectorXd FreeVolts(const Finger& finger,
                           const Discretization& discretization);
 constexpr std::size_t kLeastZeroRows = 3;
 constexpr std::size_t kFewZeroRows = 10;  ///< With fewer a caller warns.
+/// Of gauges that scatter by less than this times their noise a caller warns.
+constexpr double kStill = 0.05;
 constexpr double kTouchLeaves = 0.05;
 constexpr double kSteady = 5;
 
