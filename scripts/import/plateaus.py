@@ -104,7 +104,7 @@ def average(recordings, shortest_s):
             kind = name.split("_")[0]
             own = np.array([len(run) if of_rows is None else of_rows[a:b].sum() for run, (a, b) in zip(runs, ranges)])
             there = counts.setdefault(kind, own)
-            # Of channels that read at different times the one that reads least; a dead one does not count.
+            # The channel with the fewest readings counts for its kind, unless it is dead.
             counts[kind] = np.where((own > 0) & (there > 0), np.minimum(own, there), np.maximum(own, there))
             spread = np.array([run.std(ddof=1) if len(run) > 1 else np.nan for run in runs])
             spread *= np.sqrt(own / np.maximum(1, [len(run) for run in runs]))

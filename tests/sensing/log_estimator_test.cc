@@ -267,7 +267,7 @@ TEST(LogEstimatorTest, AWalkThatIsLargerThanToldIsFound) {
   EXPECT_EQ(told.walk.Judge(), WalkIncrements::Verdict::kFits);
 }
 
-// Of the odd row no finger has an equilibrium.
+// The finger has no equilibrium at the readings of the odd row.
 TEST(LogEstimatorTest, OneOddRowLeavesTheOthers) {
   std::vector<Measurements> rows(21);
   for (std::size_t t = 0; t < rows.size(); ++t) {

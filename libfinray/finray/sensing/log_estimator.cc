@@ -223,8 +223,7 @@ void LogEstimator::EstimateAlone(const std::vector<LogFrame>& frames,
     take_(estimate);
   }
   alone_ += settled;
-  // What the settled frames tell of the next one, of which the prior of a
-  // contact is no part.
+  // The settled frames give the offsets of the next frame, and no contact.
   const std::vector<OffsetBelief> there =
       detection_.BeliefsBehind(BeliefBefore(), frames);
   prior_ = {};

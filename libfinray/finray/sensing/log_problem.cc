@@ -27,10 +27,10 @@ constexpr double kLeastChange = 1e-4;
 // of f_c about what is expected of it in EI / l_0^2. They keep contacts that
 // the readings leave open from the far end of the beam and of the scale.
 constexpr double kArcPrior = 0.25, kForcePrior = 16;
-// What wandering offsets leave open of a contact is common to the frames of a
-// touch, and a weak prior of each frame draws them all the same way. So those
-// of a touch of more frames than this share what the priors of so many tell,
-// and the covariance counts them all as one.
+// Offsets that wander leave one error open that all frames of a touch have in
+// common, and the weak prior of each frame draws it the same way. So the priors
+// of a longer touch weigh as much as those of this many frames, and the
+// covariance counts them as one.
 constexpr double kPriorFrames = 75;
 // A walk of l_c from frame to frame takes noise of the readings for motion. The
 // share that it leaves, about (noise / step)^2 of each frame, falls with the

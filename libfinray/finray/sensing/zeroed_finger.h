@@ -63,7 +63,7 @@ Eigen::VectorXd FreeVolts(const Finger& finger,
                           const Discretization& discretization);
 constexpr std::size_t kLeastZeroRows = 3;
 constexpr std::size_t kFewZeroRows = 10;  ///< With fewer a caller warns.
-/// Of gauges that scatter by less than this times their noise a caller warns.
+/// A caller warns of a gauge that scatters by less than kStill times its noise.
 constexpr double kStill = 0.05;
 constexpr double kTouchLeaves = 0.05;
 constexpr double kSteady = 5;

@@ -60,7 +60,7 @@ struct Candidates {
   std::string rows = {};
 };
 
-// What ranks effects: evidence that chance makes hides no effect.
+// The rank of an effect. A significant one is above all that chance explains.
 std::pair<bool, double> RankOf(const ScoreTest::Effect& effect) {
   return {effect.significant, effect.evidence};
 }
