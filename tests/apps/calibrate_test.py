@@ -47,6 +47,18 @@ class CalibrateTest(unittest.TestCase):
                 self.assertTrue((self.folder / "out/plan.yaml").exists())
                 self.assertNotEqual(found["verdict"], "good")
 
+    def test_friction_that_the_plan_leaves_out_is_named(self):
+        # Solids of another solver press with a friction of 0.3; without it the finger fits too.
+        for load, code in (("smooth", 0), ("rough", 4)):
+            with self.subTest(load):
+                done, errors, found = self.calibrated(PRINTED / load / "train.csv", PRINTED / "finger_bending.yaml",
+                                                      PRINTED / "plan_bending.yaml")
+                self.assertEqual(done, code, errors)
+        self.assertEqual(found["verdict"], "doubtful")
+        self.assertIn("likeliest cause: residuals look like friction", errors)
+        friction = next(e for e in found["effect_scores"]["effects"] if e["family"] == "friction")["values"][0]
+        self.assertLess(abs(friction["value"] - 0.3), 3 * friction["std"])
+
     def test_rows_written_twice_count_once(self):
         with open(TRAIN) as file:
             header, *rows = csv.reader(file)

@@ -29,14 +29,18 @@ Exploration::Step* LastFreed(Exploration* exploration) {
 bool FreeNext(SolvedProblem* now, Exploration* result) {
   now->problem->Tell("effects that the plan leaves out");
   const WideLinearization wide = LinearizeWide(*now->problem, now->solution);
-  ScoreTest score =
-      TestScores(*now->problem,
-                 AnalyzeIdentifiability(now->problem, now->solution.at), wide);
-  if (score.Best() == nullptr) return false;
+  const Identifiability found =
+      AnalyzeIdentifiability(now->problem, now->solution.at);
+  ScoreTest score = TestScores(*now->problem, found, wide);
+  constexpr char kNone[] = "no effect that finray knows explains the logs";
+  if (score.Best() == nullptr) {
+    if (TotalChi2::Of(found).IsLoud()) result->beyond = kNone;
+    return false;
+  }
   if (!score.Best()->CanBeFreed()) {
     JudgeEffects(*now, &score);
     if (score.FoundNone()) {
-      result->beyond = "no effect that finray knows explains the logs";
+      result->beyond = kNone;
       return false;
     }
     if (!score.Best()->CanBeFreed()) {

@@ -21,10 +21,9 @@ struct Exploration {
     bool kept = false;
   };
   std::vector<Step> steps;
-  /// Says why nothing more is freed though the logs show an effect that no plan
-  /// frees, such as a change in mid-log: it explains the residuals, and another
-  /// one in its place would deceive, or none that is known explains them.
-  /// Empty if there is no such effect.
+  /// Says why nothing more is freed though noise does not explain the
+  /// residuals: an effect does that no plan frees, such as a change in mid-log,
+  /// or none that is known does. Else empty.
   std::string beyond;
   /// Steps that failed, each with the reason. What was solved before them
   /// stands.

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <unordered_set>
 #include <utility>
@@ -76,6 +77,7 @@ class ScoreRanking {
       : wide_(wide), refits_(refits), total_(TotalChi2::Of(found)) {
     FindScores(problem);
     FindTests();
+    for (const Candidates& test : tests_) ++tests_of_group_[GroupOf(test)];
   }
 
   ScoreTest Rank() const {
@@ -441,6 +443,19 @@ class ScoreRanking {
     return test;
   }
 
+  // The tests of a family in all rows are one group, those in some rows
+  // another.
+  static std::pair<ParameterFamily, bool> GroupOf(const Candidates& test) {
+    return {test.effect.family, test.where == ScoreTest::Where::kEverywhere};
+  }
+  // Returns Bonferroni's factor of a p-value. Groups share the error rate
+  // equally, and the tests of a group share its part: a family of one parameter
+  // is not charged for the many stretches and members of others.
+  double BonferroniFactor(const Candidates& test) const {
+    return static_cast<double>(tests_of_group_.size()) *
+           tests_of_group_.at(GroupOf(test));
+  }
+
   ScoreTest::Effect Evaluate(const Candidates& test, const Scores& scores,
                              double dropped) const {
     const std::vector<int>& columns = test.columns;
@@ -471,9 +486,9 @@ class ScoreRanking {
     const auto told = static_cast<int>((a.diagonal().array() > kTold).count());
     effect.p_value =
         told > 0 ? ChiSquaredTail(effect.drop / scale2, told) : 1.0;
-    effect.significant = effect.evidence > 0 &&
-                         effect.p_value * static_cast<double>(tests_.size()) <
-                             ScoreTest::kSignificant;
+    effect.significant =
+        effect.evidence > 0 &&
+        effect.p_value * BonferroniFactor(test) < ScoreTest::kSignificant;
     for (Eigen::Index i = 0; i < k; ++i) {
       const CalibrationParameter& p = Parameter(columns[i]);
       const double unit = columns_[columns[i]].unit;
@@ -538,6 +553,7 @@ class ScoreRanking {
   std::size_t everywhere_ = 0;
   Scores scores_;
   std::vector<Candidates> tests_;
+  std::map<std::pair<ParameterFamily, bool>, int> tests_of_group_;
 };
 
 }  // namespace

@@ -50,8 +50,10 @@ struct Refit {
 /// is its limit for many frames). s^2 = chi2 per degree of freedom without the
 /// drop, at least 1: where no effect explains the residuals, none counts more
 /// than the rest. An effect is significant if its evidence is above 0 and the
-/// probability of its drop / s^2 by chance, times the number of tests, is below
-/// kSignificant.
+/// probability of its drop / s^2 by chance is below kSignificant / (g t), where
+/// g is the number of groups of tests, t the number in its group, and a group
+/// are the tests of one family in all rows, or those in some rows (Bonferroni's
+/// bound with weights).
 struct ScoreTest {
   static constexpr double kSignificant = 0.01;
 
