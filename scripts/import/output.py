@@ -1,7 +1,8 @@
 """Writes the log, and the mapping by which the same log comes out again."""
 
 import os
-import tempfile
+import pathlib
+import sys
 import zlib
 
 import numpy as np
@@ -11,48 +12,10 @@ import units
 import vocabulary
 from errors import BadInput
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "calib" / "report"))
+import whole_file  # noqa: E402
+
 ROWS_A_BLOCK = 10000
-
-
-def _part(path, blocks):
-    """Writes blocks of bytes to a file beside `path` that is to take its place, and returns its name."""
-    descriptor, part = tempfile.mkstemp(prefix=".", suffix=".part",
-                                        dir=os.path.dirname(path) or ".")
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.writelines(blocks)
-        os.chmod(part, 0o666 & ~_umask())
-    except BaseException:
-        os.unlink(part)
-        raise
-    return part
-
-
-def _write_all(files):
-    """Writes files {path: blocks of bytes}, each whole or not at all. All are on the disk before the first
-    one takes its place, so a full disk leaves none of them."""
-    parts = {}
-    try:
-        for path, blocks in files.items():
-            if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
-                with open(path, "wb") as file:  # a device or a pipe
-                    file.writelines(blocks)
-                continue
-            parts[path] = _part(path, blocks)
-        for path in list(parts):
-            os.replace(parts[path], path)
-            del parts[path]
-    except OSError as error:
-        raise BadInput(f"{path}: cannot be written: {error.strerror}") from error
-    finally:
-        for part in parts.values():
-            os.unlink(part)
-
-
-def _umask():
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _log(columns):
@@ -161,4 +124,4 @@ def refuse_to_overwrite(inputs, out):
 
 def write(path, columns, text):
     log = _log(columns)
-    _write_all({mapping_path(path): [text.encode()], path: _packed(log) if path.endswith(".gz") else log})
+    whole_file.write_all({mapping_path(path): [text.encode()], path: _packed(log) if path.endswith(".gz") else log})
