@@ -7,6 +7,7 @@
 
 #include "finray/benchmark/latency.h"
 #include "finray/sensing/frame_estimator.h"
+#include "sensing/gauge_volts.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -86,6 +87,33 @@ TEST_F(SearchLimitTest, NothingFoundInTimeIsNotNoContact) {
     EXPECT_NE(one.status, FrameStatus::kNoContact);
     EXPECT_NE(one.status, FrameStatus::kOk);
   }
+}
+
+// The profile of a pair past the last rib takes most of its search.
+TEST_F(SearchLimitTest, TheProfileOfAPairIsBoundedToo) {
+  EquilibriumSolver plant(finger_, {Scheme::kTaylor8, 3});
+  ASSERT_TRUE(plant.Solve({{60, 3, 0}, {122, 2, 0}}));
+  Measurements row;
+  row.gauges_V = Volts(plant);
+  const auto estimate = [&](std::optional<int> limit) {
+    Scene scene;
+    scene.contacts = 2;
+    scene.search_iteration_limit = limit;
+    return FrameEstimator(finger_, scene).Estimate(row);
+  };
+  const FrameEstimate whole = estimate({});
+  ASSERT_EQ(whole.contacts, 2);
+  for (const int left_out : {1, 2, 5, 20}) {
+    const int limit = whole.iterations - left_out;
+    const FrameEstimate ended = estimate(limit);
+    EXPECT_LE(ended.iterations, limit);
+    EXPECT_TRUE(ended.search_ended) << limit;
+    EXPECT_NE(ended.status, FrameStatus::kOk);
+  }
+  const FrameEstimate enough = estimate(whole.iterations + 1);
+  EXPECT_FALSE(enough.search_ended);
+  EXPECT_EQ(enough.status, whole.status);
+  EXPECT_EQ(enough.iterations, whole.iterations);
 }
 
 }  // namespace

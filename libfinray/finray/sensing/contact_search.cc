@@ -7,7 +7,6 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/sensing/chi_squared.h"
-#include "finray/sensing/pair_profile.h"
 #include "finray/sensing/valley.h"
 
 namespace finray {
@@ -61,37 +60,6 @@ bool HasCloseMinima(const Finger& finger) {
 
 }  // namespace
 
-namespace {
-
-// Fits from where the profile of the best pair has other minima, until they
-// lead to no better one. `profile` is then that of the best pair. fit(start)
-// fills in the next solution and says whether it has.
-template <class Fit>
-void ProfileFound(const PackedReadings& packed, double friction,
-                  double most_force_N, EquilibriumSolver* solver,
-                  FoundSolutions* found, LadderState* state,
-                  std::vector<ContactStart>* profile, const Fit& fit) {
-  for (int round = 0; round < kMostProfiles; ++round) {
-    PairProfile of_best = ProfilePair(found->best(), packed, friction,
-                                      most_force_N, solver, profile);
-    const double before = found->least_chi2();
-    for (int i = 0; i < of_best.count && !found->full(); ++i) {
-      ContactStart& start = of_best.minima[i];
-      for (PointContact& contact : start.contacts) contact.friction = friction;
-      solver->Reset();
-      if (!solver->Solve({start.contacts.begin(), start.contacts.end()})) {
-        continue;
-      }
-      solver->SaveState(state);
-      start.state = state;
-      if (fit(start)) found->Keep();
-    }
-    if (!(found->least_chi2() < before - kSamePair)) return;
-  }
-}
-
-}  // namespace
-
 const char* FrameMethodName(FrameMethod method) {
   constexpr const char* kNames[] = {"fast", "ceres reduced", "ceres weighted"};
   return kNames[static_cast<int>(method)];
@@ -138,20 +106,30 @@ void ContactSearch::Spend(int iterations, bool converged) {
   ended_ |= limit && spent_ >= *limit && !converged;
 }
 
+int ContactSearch::LeftOfLimit() const {
+  const auto& limit = scene_.search_iteration_limit;
+  return limit ? *limit - spent_ : std::numeric_limits<int>::max();
+}
+
 int ContactSearch::Left() const {
-  return std::min(scene_.search_iteration_limit.value_or(
-                      spent_ + ContactFit::kMostIterations) -
-                      spent_,
-                  ContactFit::kMostIterations);
+  return std::min(LeftOfLimit(), ContactFit::kMostIterations);
 }
 
 bool ContactSearch::MayGoOn() {
   if (!scene_.search_iteration_limit) return true;
-  const int left = *scene_.search_iteration_limit - spent_;
+  const int left = LeftOfLimit();
   ended_ |= left < 1;
   fit_.set_most_iterations(Left());
   problem_.set_most_iterations(left);
   return left > 0;
+}
+
+bool ContactSearch::IsEnough(const PackedReadings& packed,
+                             double least_force_N) const {
+  return !found_.empty() && best().count == 2 && IsDoubted(packed) &&
+         IsExplained(best().chi2, 0) &&
+         std::min(best().contacts[0].normal_N, best().contacts[1].normal_N) >=
+             least_force_N;
 }
 
 bool ContactSearch::IsExplained(double chi2, int dof) {
@@ -160,7 +138,7 @@ bool ContactSearch::IsExplained(double chi2, int dof) {
 }
 
 bool ContactSearch::Search(int contacts, const Measurements& row,
-                           const PackedReadings& packed) {
+                           const PackedReadings& packed, double least_force_N) {
   const int dof = packed.all - 2 * contacts;
   // The surface's contacts have the scene's friction.
   on_surface_ = method_ == FrameMethod::kFast && contacts == 1 &&
@@ -186,27 +164,14 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     double needed = GaugeTable::kAnyChi2;
     if (!close || most_chi2 == GaugeTable::kAnyChi2) {
       found_.Clear();
-      needed = TryStarts(contacts, row, packed, most_chi2);
+      needed = TryStarts(contacts, row, packed, most_chi2, least_force_N);
     }
     if (!(needed > most_chi2)) break;
     most_chi2 = needed;
   }
-  if (contacts == 2 && !found_.empty() && packed.camera == 0 && MayGoOn()) {
-    const ContactSolution* best = &found_.best();
-    ProfileFound(packed, friction_, most_force_N_, &solver_, &found_, &exact_,
-                 &profile_, [&](const ContactStart& start) {
-                   return method_ == FrameMethod::kFast
-                              ? FitEquilibria(start, packed)
-                              : FitByCeres(start, row);
-                 });
-    Spend(static_cast<int>(profile_.size()), true);
-    // Following begins at an equilibrium near the best.
-    if (&found_.best() != best &&
-        solver_.Solve(
-            {this->best().contacts.begin(), this->best().contacts.end()})) {
-      solver_.SaveState(&exact_);
-      best_from_ = &exact_;
-    }
+  if (contacts == 2 && !found_.empty() && packed.camera == 0 &&
+      !IsEnough(packed, least_force_N)) {
+    ProfileBest(packed, &row);
   }
   suspect_ = contacts == 2 && found_.rival(kSuspect) != nullptr;
   if (contacts == 1 && !found_.empty() && method_ == FrameMethod::kFast) {
@@ -220,14 +185,10 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
 }
 
 double ContactSearch::TryStarts(int contacts, const Measurements& row,
-                                const PackedReadings& packed,
-                                double most_chi2) {
-  std::size_t fallbacks = 0;
-  const auto keep = [this](const ContactStart& start) {
-    found_.Keep();
-    if (&found_.best() == &found_.last()) best_from_ = start.state;
-  };
+                                const PackedReadings& packed, double most_chi2,
+                                double least_force_N) {
   const int dof = packed.all - 2 * contacts;
+  std::size_t fallbacks = 0;
   // A rival may be hidden by noise, and two contacts are followed from here.
   const double within = contacts == 2 ? kSuspect : kWithinNoise;
   for (const ContactStart& start : contacts == 2 ? pair_starts_ : starts_) {
@@ -248,14 +209,15 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
     }
     if (!MayGoOn()) break;
     if (method_ != FrameMethod::kFast) {
-      if (FitByCeres(start, row)) keep(start);
+      if (FitByCeres(start, row)) found_.Keep();
       continue;
     }
     if (Fit(start, packed)) {
       const ContactSolution& next = found_.next();
       if (!on_surface_ || !found_.Knows(next.contacts[0], next.chi2)) {
-        keep(start);
+        found_.Keep();
       }
+      if (IsEnough(packed, least_force_N)) break;
       continue;
     }
     const bool explained =
@@ -263,7 +225,7 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
     if ((explained && !exact_fit_) || fallbacks >= kMostFallbacks) continue;
     ++fallbacks;
     if (!MayGoOn()) break;
-    if (FitByCeres(start, row)) keep(start);
+    if (FitByCeres(start, row)) found_.Keep();
     if (!found_.empty() && found_.least_chi2() > FrameProblem::kHopelessChi2) {
       fallbacks = kMostFallbacks;
     }
@@ -373,6 +335,7 @@ void ContactSearch::Take(const ContactFit& fit,
   solution.chi2 = fit.chi2();
   solution.information = fit.information();
   solution.systematic.resize(0, 0);  // FrameEstimator finds it
+  if (contacts.size() == 2) fit.SaveState(&solution.state);
   solution.tip_pose = fit.tip_pose();
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
     solution.rib_tension_N[i] = fit.rib_tension(static_cast<int>(i));
@@ -386,10 +349,7 @@ void ContactSearch::Take(const ContactFit& fit,
 bool ContactSearch::BeginFollowing() {
   if (!following_ || suspect_) return false;
   followed_.assign(best().contacts.begin(), best().contacts.end());
-  solver_.set_state(*best_from_);
-  if (!solver_.Solve(followed_)) return false;
-  solver_.SaveState(&exact_);
-  following_->set_state(exact_);
+  following_->set_state(best().state);
   searched_chi2_ = best().chi2;
   turn_ = 0;
   return true;
@@ -420,15 +380,30 @@ bool ContactSearch::Follow(const PackedReadings& packed) {
     found_.Keep();
   }
   ++turn_;
-  if (packed.camera == 0 && MayGoOn()) {
-    ProfileFound(packed, friction_, most_force_N_, &solver_, &found_, &exact_,
-                 &profile_, [&](const ContactStart& start) {
-                   return FitEquilibria(start, packed);
-                 });
-    Spend(static_cast<int>(profile_.size()), true);
+  if (packed.camera == 0 && !IsEnough(packed, 0)) {
+    ProfileBest(packed, nullptr);
   }
   suspect_ = found_.rival(kSuspect) != nullptr;
   return !suspect_ && found_.first().chi2 < best().chi2 + kWithinNoise;
+}
+
+void ContactSearch::ProfileBest(const PackedReadings& packed,
+                                const Measurements* row) {
+  for (int round = 0; round < kMostProfiles && MayGoOn(); ++round) {
+    ProfilePair(best(), packed, friction_, most_force_N_, LeftOfLimit(),
+                &solver_, &pair_profile_, &profile_);
+    Spend(pair_profile_.iterations, !pair_profile_.ended);
+    const double before = found_.least_chi2();
+    for (int i = 0; i < pair_profile_.count && !found_.full(); ++i) {
+      if (!MayGoOn()) return;
+      const ContactStart& start = pair_profile_.minima[i];
+      if (method_ == FrameMethod::kFast ? FitEquilibria(start, packed)
+                                        : FitByCeres(start, *row)) {
+        found_.Keep();
+      }
+    }
+    if (!(found_.least_chi2() < before - kSamePair)) return;
+  }
 }
 
 bool ContactSearch::FitByCeres(const ContactStart& start,

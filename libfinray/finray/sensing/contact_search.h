@@ -12,6 +12,7 @@
 #include "finray/sensing/found_solutions.h"
 #include "finray/sensing/frame_problem.h"
 #include "finray/sensing/packed_readings.h"
+#include "finray/sensing/pair_profile.h"
 #include "finray/sensing/search_tables.h"
 
 namespace finray {
@@ -54,9 +55,17 @@ class ContactSearch {
     spent_ = 0;
     ended_ = suspect_ = false;
   }
-  /// Searches with one or two contacts. Returns false if no start converged.
+  /// Searches with one or two contacts. Returns false if no start converged. A
+  /// contact with less than `least_force_N` is none. If IsDoubted, the first
+  /// pair that explains the frame ends the search.
   bool Search(int contacts, const Measurements& row,
-              const PackedReadings& packed);
+              const PackedReadings& packed, double least_force_N = 0);
+  /// Says whether the gauges of a frame do not tell whether there are two
+  /// contacts: with `contacts: auto`, as many unknowns as readings. Whatever
+  /// pair is found is then unobservable.
+  bool IsDoubted(const PackedReadings& packed) const {
+    return !scene_.contacts && packed.all <= 2 * kFittedContacts;
+  }
 
   // Frames with two contacts that follow each other:
 
@@ -117,7 +126,9 @@ class ContactSearch {
   double most_force_N() const { return most_force_N_; }
 
  private:
-  // The iterations that a fit may take, at most kMostIterations.
+  // The iterations left by the limit; and what a fit may take of them, at most
+  // kMostIterations.
+  int LeftOfLimit() const;
   int Left() const;
   // Says whether another fit may begin. It then gets the iterations left.
   bool MayGoOn();
@@ -129,7 +140,14 @@ class ContactSearch {
   // Fits from the starts of a profile that reaches to `most_chi2`. Returns how
   // far it must reach; if that is farther, not all starts are tried.
   double TryStarts(int contacts, const Measurements& row,
-                   const PackedReadings& packed, double most_chi2);
+                   const PackedReadings& packed, double most_chi2,
+                   double least_force_N);
+  // Says whether the best pair is all that can be known of a frame.
+  bool IsEnough(const PackedReadings& packed, double least_force_N) const;
+  // Profiles the best pair, and fits from where its profile has other minima,
+  // until they lead to no better one. The profile is then that of the best
+  // pair. Ceres needs the row.
+  void ProfileBest(const PackedReadings& packed, const Measurements* row);
   // Fits from rows of the table that the solutions found do not account for:
   // from all of them where minima are `close`, else from those beside which
   // chi2 changes too sharply for the table to show a minimum between rows.
@@ -170,8 +188,8 @@ class ContactSearch {
   std::vector<ContactStart> profile_, starts_;  // of one contact
   std::vector<ContactStart> pair_starts_;
   std::vector<PointContact> contacts_;
-  const LadderState* best_from_ = nullptr;  // of the start that led to best()
-  std::optional<ContactFit> following_;     // if the scene allows two contacts
+  PairProfile pair_profile_;
+  std::optional<ContactFit> following_;  // if the scene allows two contacts
   std::vector<PointContact> followed_;
   std::size_t turn_ = 0;      // of pair_starts_
   double searched_chi2_ = 0;  // where following began

@@ -294,7 +294,7 @@ bool FrameEstimator::Fit(int contacts, const Measurements& readings,
                          const PackedReadings& packed) {
   return following_two_ && contacts == 2
              ? search_.Follow(packed)
-             : search_.Search(contacts, readings, packed);
+             : search_.Search(contacts, readings, packed, least_force_N_);
 }
 
 // Copies into the memory of the estimate: most frames of a log are free.
@@ -412,7 +412,7 @@ void FrameEstimator::Judge(const Measurements& readings,
   estimate->status = StatusOf(*estimate, finger_, search_);
   // Two contacts explain any reading of as many gauges as unknowns, so that
   // nothing there says that there are two.
-  if (estimate->contacts == 2 && estimate->dof < 1 && !scene_.contacts) {
+  if (estimate->contacts == 2 && search_.IsDoubted(packed)) {
     estimate->status = FrameStatus::kUnobservable;
   }
 }

@@ -77,10 +77,13 @@ ProfiledRange ProfiledPart(const Finger& finger,
 class PairWalk {
  public:
   PairWalk(const ContactSolution& solution, const PackedReadings& packed,
-           double friction, double most_force_N, EquilibriumSolver* solver)
+           double friction, double most_force_N, int most_iterations,
+           EquilibriumSolver* solver, PairProfile* profile)
       : solution_(solution),
         packed_(packed),
         most_force_N_(most_force_N),
+        most_iterations_(most_iterations),
+        profile_(*profile),
         length_mm_(solver->model().finger().front_length_mm),
         solver_(*solver),
         gauges_(solver->model().gauges()),
@@ -89,7 +92,7 @@ class PairWalk {
   }
 
   void Walk(int contact, double end_mm, double variance_mm2,
-            std::vector<ContactStart>* places, PairProfile* profile) {
+            std::vector<ContactStart>* places) {
     const double begin = solution_.contacts[contact].arc_mm;
     const double way = end_mm - begin;
     if (std::abs(way) < 1e-6 * length_mm_) return;
@@ -99,7 +102,7 @@ class PairWalk {
       contacts_[c].arc_mm = solution_.contacts[c].arc_mm;
       contacts_[c].normal_N = solution_.contacts[c].normal_N;
     }
-    solver_.Reset();
+    solver_.set_state(solution_.state);
     if (!Linearize()) return;
     double before = solution_.chi2;
     bool falling = false;
@@ -110,15 +113,15 @@ class PairWalk {
       if (!Refit(contact, begin + way * i / steps, &place)) break;
       places->push_back(place);
       const bool falls = place.chi2 < before;
-      if (falling && !falls) Add(last, profile);
-      if (falls && i == steps) Add(place, profile);
+      if (falling && !falls) Add(last, lowest_);
       const double apart_mm = place.contacts[contact].arc_mm - begin;
       const double more = place.chi2 - solution_.chi2;
       const double expected = apart_mm * apart_mm / variance_mm2;
-      if (!falls && more < kBetterBeside * expected && expected > kBeside &&
-          more < kBesideChi2 + solution_.chi2) {
-        Add(place, profile);
-      }
+      const bool flat = !falls && more < kBetterBeside * expected &&
+                        expected > kBeside &&
+                        more < kBesideChi2 + solution_.chi2;
+      if (falls || flat) solver_.SaveState(&lowest_);
+      if (flat || (falls && i == steps)) Add(place, lowest_);
       falling = falls;
       before = place.chi2;
       if (place.chi2 > solution_.chi2 + kSteep * (1 + solution_.chi2)) break;
@@ -126,13 +129,21 @@ class PairWalk {
   }
 
  private:
-  static void Add(const ContactStart& start, PairProfile* profile) {
-    if (profile->count == PairProfile::kMostMinima) return;
-    profile->minima[profile->count++] = start;
+  void Add(const ContactStart& start, const LadderState& state) {
+    if (profile_.count == PairProfile::kMostMinima) return;
+    ContactStart& added = profile_.minima[profile_.count];
+    LadderState& its = profile_.states[profile_.count];
+    added = start;
+    its = state;
+    added.state = &its;
+    ++profile_.count;
   }
 
   // Residuals of the gauges and their slopes at the contacts.
   bool Linearize() {
+    profile_.ended |= profile_.iterations == most_iterations_;
+    if (profile_.ended) return false;
+    ++profile_.iterations;
     if (!solver_.SolveWithSensitivities(contacts_)) return false;
     normal_.setZero();
     gradient_.setZero();
@@ -186,12 +197,18 @@ class PairWalk {
       }
       for (int c = 0; c < 2; ++c) {
         PointContact& at = contacts_[c];
-        at.arc_mm = std::clamp(
-            at.arc_mm + (c == contact ? moved
-                                      : std::clamp(change[2 * c],
-                                                   -kLongestRefit * length_mm_,
-                                                   kLongestRefit * length_mm_)),
-            kClamp * length_mm_ / 2, length_mm_);
+        if (c == contact) {
+          at.arc_mm = to_mm;
+        } else {
+          // Its bounds keep it on its side of the other one.
+          const double longest = kLongestRefit * length_mm_,
+                       apart = kApart * length_mm_;
+          at.arc_mm += std::clamp(change[2 * c], -longest, longest);
+          at.arc_mm = c == 0 ? std::min(at.arc_mm, to_mm - apart)
+                             : std::max(at.arc_mm, to_mm + apart);
+          at.arc_mm =
+              std::clamp(at.arc_mm, kClamp * length_mm_ / 2, length_mm_);
+        }
         at.normal_N = std::min(
             std::clamp(at.normal_N + change[2 * c + 1],
                        at.normal_N / kMostFactor, at.normal_N * kMostFactor),
@@ -207,7 +224,11 @@ class PairWalk {
 
   const ContactSolution& solution_;
   const PackedReadings& packed_;
-  double most_force_N_, length_mm_;
+  double most_force_N_;
+  int most_iterations_;
+  PairProfile& profile_;
+  double length_mm_;
+  LadderState lowest_;
   EquilibriumSolver& solver_;
   int gauges_;
   std::vector<PointContact> contacts_;
@@ -218,24 +239,27 @@ class PairWalk {
 
 }  // namespace
 
-PairProfile ProfilePair(const ContactSolution& solution,
-                        const PackedReadings& packed, double friction,
-                        double most_force_N, EquilibriumSolver* solver,
-                        std::vector<ContactStart>* places) {
+void ProfilePair(const ContactSolution& solution, const PackedReadings& packed,
+                 double friction, double most_force_N, int most_iterations,
+                 EquilibriumSolver* solver, PairProfile* profile,
+                 std::vector<ContactStart>* places) {
   places->clear();
-  PairProfile profile;
+  profile->count = profile->iterations = 0;
+  profile->ended = false;
   const ContactMatrix covariance = CovarianceOf(solution.information);
-  if (!std::isfinite(covariance(0, 0))) return profile;
+  if (!std::isfinite(covariance(0, 0))) return;
   const Finger& finger = solver->model().finger();
-  PairWalk walk(solution, packed, friction, most_force_N, solver);
+  PairWalk walk(solution, packed, friction, most_force_N, most_iterations,
+                solver, profile);
+  solver->set_near_only(true);
   for (int c = 0; c < 2; ++c) {
     const ProfiledRange part =
         ProfiledPart(finger, solution, c, std::sqrt(covariance(2 * c, 2 * c)));
     for (const double end_mm : {part.high_mm, part.low_mm}) {
-      walk.Walk(c, end_mm, covariance(2 * c, 2 * c), places, &profile);
+      walk.Walk(c, end_mm, covariance(2 * c, 2 * c), places);
     }
   }
-  return profile;
+  solver->set_near_only(false);
 }
 
 std::array<double, 2 * kFittedContacts> PairFactors(

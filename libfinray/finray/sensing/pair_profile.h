@@ -23,16 +23,23 @@ struct PairProfile {
   /// Beginnings of fits: places where p has a minimum of its own.
   static constexpr int kMostMinima = 8;
   std::array<ContactStart, kMostMinima> minima;
+  std::array<LadderState, kMostMinima> states;  ///< Theirs.
   int count = 0;
+  /// The number of equilibria.
+  int iterations = 0;
+  /// The bound of that number has ended the profile.
+  bool ended = false;
 };
 
-/// Profiles a solution. `places` get both contacts and chi2 of each place; the
-/// solver ends at any equilibrium. Each place takes one to four equilibria with
-/// their derivatives. `most_force_N` is the bound of the forces.
-PairProfile ProfilePair(const ContactSolution& solution,
-                        const PackedReadings& packed, double friction,
-                        double most_force_N, EquilibriumSolver* solver,
-                        std::vector<ContactStart>* places);
+/// Profiles a solution from its equilibrium. `places` get both contacts and
+/// chi2 of each place; the solver ends at any equilibrium, and looks for
+/// equilibria near the last one only. Each place takes one to four of them with
+/// their derivatives, all together at most `most_iterations`. `most_force_N` is
+/// the bound of the forces. Contacts do not pass each other.
+void ProfilePair(const ContactSolution& solution, const PackedReadings& packed,
+                 double friction, double most_force_N, int most_iterations,
+                 EquilibriumSolver* solver, PairProfile* profile,
+                 std::vector<ContactStart>* places);
 
 /// How much larger the std of (l_c, f_c) of both contacts are than those of the
 /// minimum, 1 or more each. A place with d(l)^2 = (p - chi2) / scale^2 is d

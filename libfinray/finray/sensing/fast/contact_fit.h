@@ -72,6 +72,8 @@ class ContactFit {
   // Results of the last successful fit.
 
   double chi2() const { return chi2_; }
+  /// Copies the equilibrium.
+  void SaveState(LadderState* state) const { newton_.Save(state); }
   /// Number of linearisations.
   int iterations() const { return iterations_; }
   /// Fisher information of (l_c, f_c) of each contact, per mm and N.
