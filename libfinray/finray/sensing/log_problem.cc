@@ -23,6 +23,14 @@ constexpr double kHuberScale = 3;
 constexpr int kMostSolverIterations = 50, kMostWithWalk = 150;
 // The solve ends when the cost, about one a frame, falls by less than this.
 constexpr double kLeastChange = 1e-4;
+// Each frame fits its noise with a contact of its own, and by how much it can
+// depends a little on what the frames of a touch have in common. So the cost
+// along that valley has a noise that grows with sqrt(frames), and in a touch of
+// more than kLongTouch frames it says more than the readings do: iterations
+// that follow it leave the solution. A solve with such a touch begins
+// undamped, so that its first step is that of the linear problem, and ends when
+// the cost falls by less than this times sqrt(frames of the touch).
+constexpr double kLeastOfTouch = 0.1, kLongTouch = 150;
 // What is known of a contact beforehand: std of l_c about its start in l_0, and
 // of f_c about what is expected of it in EI / l_0^2. They keep contacts that
 // the readings leave open from the far end of the beam and of the scale.
@@ -267,12 +275,16 @@ int LogProblem::Solve() {
       scene_.gauge_offset_walk ? kMostWithWalk : kMostSolverIterations;
   // The residuals are whitened. The information about an offset under a long
   // touch is 1e-3 of its diagonal: with this radius it is hardly damped.
-  options.initial_trust_region_radius = 1e6;
+  const double longest =
+      *std::max_element(touch_frames_.begin(), touch_frames_.end());
+  const bool is_long = longest > kLongTouch;
+  options.initial_trust_region_radius = is_long ? 1e12 : 1e6;
   options.max_trust_region_radius = 1e16;
   // One frame in a flat direction must not hold up thousands: a change of 1e-4
   // in the cost of a frame is 0.01 std.
   options.function_tolerance =
-      kLeastChange / static_cast<double>(frames_->size());
+      (is_long ? kLeastOfTouch * std::sqrt(longest) : kLeastChange) /
+      static_cast<double>(frames_->size());
   options.parameter_tolerance = 1e-10;
   ceres::Solver::Summary summary;
   const ClassicNumbers in_messages;
