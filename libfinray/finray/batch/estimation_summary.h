@@ -74,7 +74,11 @@ struct EstimationSummary {
   bool changes_differ() const;
   static constexpr double kFarChange = 1.5;
   bool offsets_move_otherwise() const {
-    return walk.Judge() != WalkIncrements::Verdict::kFits;
+    const WalkIncrements::Verdict verdict = walk.Judge();
+    // Short windows that converge say little of a log that mostly does not.
+    return verdict != WalkIncrements::Verdict::kFits &&
+           (verdict != WalkIncrements::Verdict::kTooLarge ||
+            2 * alone < frames);
   }
   /// Number of frames that are not_converged or bad_input.
   std::size_t unsolved() const;

@@ -119,10 +119,8 @@ Warning WalkDiffers(const LogSummary& log, const Finger& /*finger*/,
   const Verdict verdict = walk.Judge();
   const std::string told =
       FormatText("std_V_per_sqrt_s: %.3g", walk.told_V_per_sqrt_s);
-  const double fits = walk.FittingWalk();
-  const std::string fitting = FormatText("%.2g", fits);
-  const bool is_floor =
-      fits <= 1.01 * WalkIncrements::kLeastShare * walk.told_V_per_sqrt_s;
+  const std::string fitting = FormatText("%.2g", walk.FittingWalk());
+  const bool is_floor = walk.FitsTheLeast();
   // At the floor nothing is told but that the walk is far smaller.
   const std::string remedy =
       is_floor ? "say the walk that a free finger shows in the scene's "

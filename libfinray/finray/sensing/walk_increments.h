@@ -58,6 +58,11 @@ struct WalkIncrements {
   /// kLeastShare of what is told.
   double FittingWalk() const;
   static constexpr double kLeastShare = 0.05;
+  /// Says whether that is the least: the walk is far smaller, nobody knows how
+  /// small.
+  bool FitsTheLeast() const {
+    return FittingWalk() <= 1.01 * kLeastShare * told_V_per_sqrt_s;
+  }
 
  private:
   // chi2 / dof of the shortest lag that tells enough.
