@@ -75,6 +75,20 @@ TEST(EstimationSummaryTest, ReadsBackTheWalk) {
   EXPECT_EQ(back.walk.moved_V, summary.walk.moved_V);
 }
 
+TEST(EstimationSummaryTest, AWideWalkIsSaidWhereFramesAreSolvedTogether) {
+  EstimationSummary summary;
+  summary.frames = 1000;
+  summary.walk.told_V_per_sqrt_s = 1e-3;
+  for (std::size_t i = 0; i < WalkIncrements::kLags; ++i) {
+    summary.walk.chi2[i] = 5;
+    summary.walk.dof[i] = 110;
+  }
+  ASSERT_EQ(summary.walk.Judge(), WalkIncrements::Verdict::kTooLarge);
+  EXPECT_TRUE(summary.offsets_move_otherwise());
+  summary.alone = 900;
+  EXPECT_FALSE(summary.offsets_move_otherwise());
+}
+
 // A force sensor of two axes says of the estimates what one of its magnitude
 // says.
 TEST(EstimationSummaryTest, TwoAxesCountLikeTheirMagnitude) {
