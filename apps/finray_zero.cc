@@ -22,7 +22,8 @@ DEFINE_string(zero_rows, "",
               "free rows, first:last, counted from 1; default: the rows whose "
               "force is within noise of zero, live 1:100");
 DEFINE_bool(allow_touch, false,
-            "zero even if a contact explains the rows, where none is there");
+            "zero even if a contact explains the rows, where none is there, or "
+            "a gauge does not move, where a converter has coarse steps");
 DEFINE_double(force_std_N, 0.02,
               "noise of each axis of the force, to tell free rows");
 DEFINE_bool(follow, false,
@@ -102,19 +103,18 @@ int Run() {
   const Discretization discretization = DiscretizationFlags();
   const Scene scene = FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene);
   const ColumnMapping& mapping = scene.columns;
-  std::vector<Measurements> free;
+  std::vector<Measurements> all, free;
   const std::string source =
       FLAGS_follow ? "stdin" : Required("logs", FLAGS_logs);
   if (FLAGS_follow) {
     free = LiveRows(finger, mapping);
   } else {
-    free = FreeRows(
-        ReadMeasurements(FrameTable::Read(source, mapping), finger, {}),
-        source);
+    all = ReadMeasurements(FrameTable::Read(source, mapping), finger, {});
+    free = FreeRows(all, source);
   }
   const ZeroedFinger zeroed =
       ZeroGauges(finger, discretization, free, source,
-                 {scene.friction_coefficient, FLAGS_allow_touch});
+                 {scene.friction_coefficient, FLAGS_allow_touch, &all});
   WriteFileAtomically(
       out, FingerToYaml(zeroed.finger,
                         "Zeroed by " + source + " from " + FLAGS_finger));

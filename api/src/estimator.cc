@@ -76,10 +76,10 @@ class Results {
     summaries_[row / kBlockFrames].Add(estimate, friction_, readings, finger_);
   }
 
-  // `find_cause` is called if a warning needs it.
+  // `find_cause` is told whether a warning needs it.
   Estimation Take(const finray::Finger& finger, const finray::Scene& scene,
                   const std::string& log,
-                  const std::function<finray::LogCause()>& find_cause,
+                  const std::function<finray::LogCause(bool)>& find_cause,
                   const finray::EstimationSummary& whole = {}) {
     Estimation result;
     result.numbers = Table(statuses_.size(), log);
@@ -92,8 +92,7 @@ class Results {
     for (const finray::EstimationSummary& block : summaries_) all.Add(block);
     all.Add(whole);
     result.warnings = ToPublic(WarningsOf(finger, scene));
-    finray::LogCause cause;
-    if (NeedsCause(all)) cause = find_cause();
+    const finray::LogCause cause = find_cause(NeedsCause(all));
     for (Warning& warning :
          ToPublic(WarningsOf({{&all, log, &cause}}, finger))) {
       result.warnings.push_back(std::move(warning));
@@ -138,18 +137,20 @@ struct Estimator::Inside {
 
   Estimation OneByOne(const Table& log, const std::function<bool()>& stop);
   Estimation Jointly(const Table& log, const std::function<bool()>& stop) const;
-  finray::LogCause CauseOf(const LogColumns& columns, std::size_t rows) const;
+  finray::LogCause CauseOf(const LogColumns& columns, std::size_t rows,
+                           bool needed) const;
 };
 
 finray::LogCause Estimator::Inside::CauseOf(const LogColumns& columns,
-                                            std::size_t rows) const {
+                                            std::size_t rows,
+                                            bool needed) const {
   finray::LogEvidence evidence(finger, scene);
   Measurements readings;
   for (std::size_t row = 0; row < rows; ++row) {
     columns.Read(row, &readings);
     evidence.Add(readings);
   }
-  return FindLogCause(evidence, finger, scene, discretization, threads);
+  return FindLogCause(evidence, finger, scene, discretization, threads, needed);
 }
 
 Estimation Estimator::Inside::OneByOne(const Table& log,
@@ -197,8 +198,9 @@ Estimation Estimator::Inside::OneByOne(const Table& log,
   tbb::task_arena(threads).execute(
       [&] { tbb::parallel_for(std::size_t{0}, blocks, solve); });
   if (stopped) throw Interrupted();
-  return results.Take(finger, scene, log.name(),
-                      [&] { return CauseOf(columns, log.rows()); });
+  return results.Take(finger, scene, log.name(), [&](bool needed) {
+    return CauseOf(columns, log.rows(), needed);
+  });
 }
 
 Estimation Estimator::Inside::Jointly(const Table& log,
@@ -230,8 +232,8 @@ Estimation Estimator::Inside::Jointly(const Table& log,
   whole.walk = estimator.walk();
   whole.alone = estimator.alone();
   return results.Take(
-      finger, scene, log.name(), [&] { return CauseOf(columns, log.rows()); },
-      whole);
+      finger, scene, log.name(),
+      [&](bool needed) { return CauseOf(columns, log.rows(), needed); }, whole);
 }
 
 Estimator::Estimator(const Finger& finger, const Scene& scene,

@@ -93,10 +93,16 @@ class NewcomerInputTest(unittest.TestCase):
 
     def test_dead_gauges_are_not_zeroed_without_a_word(self):
         names = ",".join(f"gauge_{j}_V" for j in range(1, 5))
-        (self.folder / "dead.csv").write_text("\n".join([names] + ["0.001,0.001,0.001,0.001"] * 50))
-        done = self.run_tool("zero", f"--finger {FINGER} --out out --logs dead.csv --zero_rows 1:50 --allow_touch")
+        (self.folder / "dead.csv").write_text("\n".join([names] + ["0.001,0.001,0.001,0.001"] * 120))
+        zero = f"--finger {FINGER} --out out --logs dead.csv --zero_rows 1:50"
+        self.refused("zero", zero, "dead.csv: gauges 1, 2, 3, 4 do not move in 50 rows, not even by noise: dead, unplugged")
+        done = self.run_tool("zero", zero + " --allow_touch")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr.count("hardly moves, by 0 mV in 50 rows"), 4)
+        done = self.run_tool("estimate", f"--finger out --logs dead.csv --out_dir frames --strict")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("in dead.csv gauges 1 to 4 do not move in 120 rows", done.stderr)
+        self.assertIn("gauge_fault", (self.folder / "frames/summary.yaml").read_text())
 
     def test_mixed_up_units_are_implausible(self):
         for flags, words in (("--width_mm 20 --thickness_mm 1 --youngs_modulus_GPa 7000", "both beams: a modulus of 7000 GPa"),

@@ -84,6 +84,24 @@ TEST(EstimationWarningsTest, ForcesThatTheLogContradicts) {
   EXPECT_TRUE(FailsStrict(warnings, {}));
 }
 
+// A finger that feels nothing, since its gauges are frozen.
+TEST(EstimationWarningsTest, AFaultThatNoFrameShows) {
+  const Finger finger = CalibratedFinger();
+  EstimationSummary summary;
+  FrameEstimate free = Contact(0, 0);
+  free.status = FrameStatus::kNoContact;
+  for (int i = 0; i < 40; ++i) {
+    summary.Add(free, 0, Row(finger, std::nan(""), 0), finger);
+  }
+  EXPECT_THAT(Of(summary, finger), IsEmpty());
+  const std::vector<Warning> warnings =
+      Of(summary, finger, {"all gauges read the same", "", "look"});
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].code, "gauge_fault");
+  EXPECT_EQ(warnings[0].text, "in a.csv all gauges read the same");
+  EXPECT_TRUE(FailsStrict(warnings, OneContact()));
+}
+
 TEST(EstimationWarningsTest, FreeRowsThatReadTheirOffsets) {
   const Finger finger = CalibratedFinger();
   EstimationSummary summary;

@@ -83,12 +83,29 @@ LogCause CauseOf(const World& world, const Change& change = {}) {
     if (change) change(row, &readings);
     evidence.Add(readings);
   }
-  return FindLogCause(evidence, finger, NoneOrOne(), {}, 2);
+  return FindLogCause(evidence, finger, NoneOrOne(), {}, 2, true);
 }
 
 TEST(LogCauseTest, AGoodLogHasNone) {
   EXPECT_THAT(CauseOf({}).words, IsEmpty());
   EXPECT_THAT(CauseOf({1, 0, 0, true}).words, IsEmpty());
+}
+
+TEST(LogCauseTest, GaugesThatDoNotMoveAreNotToBeZeroed) {
+  for (const double factor : {0.0, 1e-3}) {
+    const LogCause cause =
+        CauseOf({1, 0, 0, true}, [&](std::size_t, Measurements* row) {
+          for (double& volts : row->gauges_V) volts *= factor;
+        });
+    EXPECT_THAT(cause.words, HasSubstr("V taken for mV?"));
+    EXPECT_THAT(cause.remedy, Not(HasSubstr("finray_zero")));
+  }
+  const LogCause cause = CauseOf({}, [](std::size_t row, Measurements* its) {
+    static Measurements held;
+    if (row <= 100) held = *its;
+    its->gauges_V = held.gauges_V;
+  });
+  EXPECT_THAT(cause.words, HasSubstr("the same from row 100 to 240"));
 }
 
 TEST(LogCauseTest, NamesWhatHasBeenDone) {

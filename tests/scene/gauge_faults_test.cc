@@ -36,8 +36,9 @@ std::vector<std::string> FaultsOf(
                                  0.2 - 0.08 * load * (0.3 + place),
                                  0.04 * load};
     for (double& v : volts) v += noise(generator);
+    const double force_N = 3 * load;
     change(row, &volts);
-    finder.Add(row, volts);
+    finder.Add(row, volts, force_N);
   }
   std::vector<std::string> words;
   for (const GaugeFault& fault : finder.Faults()) words.push_back(fault.words);
@@ -96,6 +97,51 @@ TEST(GaugeFaultsTest, NamesGaugeKindAndRows) {
                 (*volts)[0] = std::round((*volts)[0] / 0.002) * 0.002;
               }),
               ElementsAre("gauge 1 has steps of 2 mV, 6.7 times its noise_V"));
+}
+
+TEST(GaugeFaultsTest, AllGaugesThatDoNotMove) {
+  for (const double factor : {0.0, 1e-3}) {
+    EXPECT_THAT(FaultsOf([&](std::size_t, std::vector<double>* volts) {
+                  for (double& v : *volts) v *= factor;
+                }),
+                ElementsAre(HasSubstr(
+                    "gauges 1 to 3 do not move in 600 rows, not even by their "
+                    "noise, while force_N varies by 3 N: dead")));
+  }
+}
+
+TEST(GaugeFaultsTest, AFrozenLogger) {
+  std::vector<double> held;
+  const auto hold = [&](std::size_t first, std::size_t last, std::size_t k) {
+    return FaultsOf(
+        [&, first, last, k](std::size_t row, std::vector<double>* volts) {
+          const bool frozen = row > first && row <= last;
+          if (!frozen && (row % k == 0 || row == 1)) held = *volts;
+          *volts = held;
+        });
+  };
+  EXPECT_THAT(hold(300, 600, 1),
+              ElementsAre("all gauges read the same from row 300 to 600: the "
+                          "logger or its link has frozen"));
+  EXPECT_THAT(hold(200, 400, 1), ElementsAre(HasSubstr("row 200 to 400")));
+  EXPECT_THAT(hold(580, 600, 1), ElementsAre(HasSubstr("row 580 to 600")));
+  // Each row is written many times, and in the end once more.
+  EXPECT_THAT(hold(500, 600, 20), IsEmpty());
+  EXPECT_THAT(hold(590, 600, 1), IsEmpty());
+}
+
+// At touches so light that the others move by less than 30 times their noise.
+TEST(GaugeFaultsTest, AGaugeThatIsFrozenUnderLightTouches) {
+  double held = 0;
+  EXPECT_THAT(FaultsOf([&](std::size_t row, std::vector<double>* volts) {
+                (*volts)[0] = 0.1 + 0.1 * ((*volts)[0] - 0.1);
+                (*volts)[1] = 0.2 + 0.05 * ((*volts)[1] - 0.2);
+                (*volts)[2] *= 0.1;
+                for (double& v : *volts) v += 1e-7 * std::sin(7e3 * v * row);
+                if (row == 251) held = (*volts)[1];
+                if (row > 251) (*volts)[1] = held;
+              }),
+              ElementsAre(HasSubstr("from row 251 to 600 while the others")));
 }
 
 }  // namespace

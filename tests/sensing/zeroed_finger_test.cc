@@ -114,6 +114,32 @@ TEST(ZeroedFingerTest, CovarianceIsThatOfManyZeroings) {
   }
 }
 
+TEST(ZeroedFingerTest, GaugesThatDoNotMoveAreRefused) {
+  std::mt19937_64 generator(5);
+  const Finger finger = Moved(Calibrated());
+  std::vector<Measurements> rows = Resting(finger, 50, &generator);
+  const std::vector<Measurements> good = rows;
+  for (Measurements& row : rows) row.gauges_V[1] = row.gauges_V[3] = 0.5;
+  EXPECT_THAT([&] { ZeroGauges(finger, {}, rows, "log.csv"); },
+              testing::ThrowsMessage<InputError>(testing::StartsWith(
+                  "log.csv: gauges 2, 4 do not move in 50 rows, not even by "
+                  "noise: dead")));
+  EXPECT_NO_THROW(ZeroGauges(finger, {}, rows, "log.csv", {0, true}));
+  // They move elsewhere in the log.
+  std::vector<Measurements> all = rows;
+  all.insert(all.end(), good.begin(), good.end());
+  EXPECT_NO_THROW(
+      ZeroGauges(Calibrated(), {}, good, "log.csv", {0, true, &all}));
+  for (Measurements& row : rows) {
+    row.gauges_V = good[0].gauges_V;
+    for (double& volts : row.gauges_V) volts *= 1e-3;
+  }
+  EXPECT_THROW(ZeroGauges(finger, {}, rows, "log.csv"), InputError);
+  // Coarse steps, as the finger says that it rests.
+  for (Measurements& row : rows) row.gauges_V = good[0].gauges_V;
+  EXPECT_NO_THROW(ZeroGauges(finger, {}, rows, "log.csv"));
+}
+
 TEST(ZeroedFingerTest, FrictionStays) {
   std::mt19937_64 generator(3);
   Finger before = Calibrated();

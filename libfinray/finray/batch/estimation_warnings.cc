@@ -86,6 +86,16 @@ Warning ForcesDiffer(const LogSummary& log, const Finger& finger,
           Remedy(log, finger)};
 }
 
+// A fault that shows by no frame, such as gauges that rest.
+Warning Faulty(const LogSummary& log, const std::string& name) {
+  return {"gauge_fault", "in " + name + " " + log.cause->words,
+          log.cause->remedy};
+}
+
+bool IsFaulty(const LogSummary& log) {
+  return log.cause && !log.cause->words.empty() && !NeedsCause(*log.summary);
+}
+
 Warning NeverFree(const LogSummary& log, const Finger& finger,
                   const std::string& name) {
   const EstimationSummary& summary = *log.summary;
@@ -280,23 +290,31 @@ std::vector<Warning> FrictionWarnings(const Finger& finger,
 std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
                                 const Finger& finger) {
   std::vector<Warning> warnings;
-  for (const Doubt& doubt : kDoubts) {
+  // Warns of the log with the most frames that show it.
+  const auto warn = [&](const auto& applies, auto frames, const auto& warning) {
     const LogSummary* worst = nullptr;
     std::size_t count = 0;
     for (const LogSummary& log : logs) {
-      if (!(log.summary->*doubt.applies)()) continue;
+      if (!applies(log)) continue;
       ++count;
-      if (!worst ||
-          log.summary->*doubt.frames > worst->summary->*doubt.frames) {
+      if (!worst || log.summary->*frames > worst->summary->*frames) {
         worst = &log;
       }
     }
-    if (!worst) continue;
+    if (!worst) return;
     std::string name = worst->log;
     if (count > 1) {
       name += " (the worst of " + std::to_string(count) + " logs)";
     }
-    warnings.push_back(doubt.warning(*worst, finger, name));
+    warnings.push_back(warning(*worst, name));
+  };
+  warn(IsFaulty, &EstimationSummary::frames, Faulty);
+  for (const Doubt& doubt : kDoubts) {
+    warn([&](const LogSummary& log) { return (log.summary->*doubt.applies)(); },
+         doubt.frames,
+         [&](const LogSummary& log, const std::string& name) {
+           return doubt.warning(log, finger, name);
+         });
   }
   return warnings;
 }
@@ -310,7 +328,8 @@ bool NeedsCause(const EstimationSummary& summary) {
 bool FailsStrict(const std::vector<Warning>& warnings, const Scene& scene) {
   return std::any_of(
       warnings.begin(), warnings.end(), [&](const Warning& warning) {
-        return warning.code == "unexplained_frames" ||
+        return warning.code == "gauge_fault" ||
+               warning.code == "unexplained_frames" ||
                warning.code == "forces_differ" ||
                warning.code == "offset_walk" || warning.code == "smoothing" ||
                (warning.code == "never_free" && !scene.contacts);

@@ -31,6 +31,9 @@ std::vector<Warning> FrictionWarnings(const Finger& finger, const Scene& scene);
 
 /// Says what makes the estimates of logs doubtful, one warning a code. It names
 /// the worst log and counts the others:
+///  - gauge_fault: gauges are dead, stuck, frozen or clipped, and no frame
+///  shows
+///    it;
 ///  - unexplained_frames: the finger and its noise do not explain too many
 ///    frames;
 ///  - some_unexplained_frames: not so many, but more than chance makes;
@@ -60,9 +63,10 @@ std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
 /// Says whether one of these warnings depends on FindLogCause.
 bool NeedsCause(const EstimationSummary& summary);
 
-/// Says whether --strict fails with one of these warnings: unexplained_frames,
-/// forces_differ, offset_walk, smoothing, and never_free unless the scene
-/// states the number of contacts of every frame, so that it is meant.
+/// Says whether --strict fails with one of these warnings: gauge_fault,
+/// unexplained_frames, forces_differ, offset_walk, smoothing, and never_free
+/// unless the scene states the number of contacts of every frame, so that it is
+/// meant.
 bool FailsStrict(const std::vector<Warning>& warnings, const Scene& scene);
 
 }  // namespace finray

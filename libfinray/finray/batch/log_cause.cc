@@ -58,6 +58,9 @@ struct Tried {
 // The pairs of more gauges are too many to try.
 constexpr int kMostExchanged = 16;
 
+constexpr char kAllStillRemedy[] =
+    "look at the cable, the unit and the logger; do not zero the gauges by "
+    "these rows";
 constexpr char kZero[] = "zero the gauges with finray_zero";
 constexpr char kCalibrate[] = "calibrate the finger anew, or look for damage";
 
@@ -80,6 +83,7 @@ class CauseSearch {
     Evaluate(&base_);
     if (base_.summary.frames == 0 || base_.Fits()) return {};
     if (LogCause steps; FindSteps(&steps)) return steps;
+    if (LogCause unit; FindUnit(&unit)) return unit;
     TryOffsets();
     TryGains();
     TryStiffness();
@@ -498,6 +502,21 @@ class CauseSearch {
     return true;
   }
 
+  // Readings in another unit have hardly any noise, so that nothing else
+  // explains their rows as sharply.
+  bool FindUnit(LogCause* cause) const {
+    constexpr double kUnit = 1e3;
+    World world = base_.world;
+    for (Measurements& row : world.rows) {
+      for (double& volts : row.gauges_V) volts *= kUnit;
+    }
+    if (!Try(std::move(world)).Fits()) return false;
+    *cause = {"the readings are 1000 times too small (V taken for mV?)", "",
+              "correct their unit: in the headers of the log, or by a scale in "
+              "the scene's columns"};
+    return true;
+  }
+
   // -2 ln of what a larger noise does to the likelihood of a gauge's readings.
   double Charge(double noise_ratio) const {
     return 2 * static_cast<double>(base_.summary.frames) *
@@ -722,7 +741,7 @@ LogEvidence::LogEvidence(const Finger& finger, const Scene& scene)
 
 void LogEvidence::Add(Measurements row) {
   const std::size_t pair = count_ / 2;
-  faults_.Add(++count_, row.gauges_V);
+  faults_.Add(++count_, row.gauges_V, row.Force().magnitude_N);
   if (!history_.empty()) history_.Remove(&row);
   if (pair % stride_ != 0) return;
   if (rows_.size() == kMostRows) {
@@ -739,18 +758,18 @@ void LogEvidence::Add(Measurements row) {
 
 LogCause FindLogCause(const LogEvidence& evidence, const Finger& finger,
                       const Scene& scene, const Discretization& discretization,
-                      int threads) {
+                      int threads, bool needed) {
+  const std::vector<GaugeFault> faults = evidence.Faults();
   LogCause cause;
-  for (const GaugeFault& fault : evidence.Faults()) {
-    if (fault.kind == GaugeFault::Kind::kCoarse) continue;
-    cause.words += (cause.words.empty() ? "" : ", ") + fault.words;
-  }
+  cause.words = WordsOf(faults, false);
   if (!cause.words.empty()) {
-    cause.remedy =
-        "check its wiring, its range and its column; with its cells left "
-        "empty the other gauges sense alone";
+    cause.remedy = faults[0].kind == GaugeFault::Kind::kAllStill
+                       ? kAllStillRemedy
+                       : "check its wiring, its range and its column; with its "
+                         "cells left empty the other gauges sense alone";
     return cause;
   }
+  if (!needed) return {};
   if (!finger.calibration) {
     return {"the finger is not calibrated", "",
             "calibrate it with finray_calibrate"};

@@ -43,11 +43,13 @@ struct LogCause {
   std::string remedy;
 };
 
-/// Looks for the cause in this order.
+/// Looks for the cause in this order, and without `needed` only for faults of
+/// gauges.
 ///
 ///  1. Gauges that are dead, stuck or clipped (GaugeFaultFinder) are the cause.
 ///     So are coarse ones, if noise of the size of their steps explains the
-///     rows.
+///     rows, and readings that are 1000 times too small, if they explain them
+///     as many times larger.
 ///  2. Each other cause is tried: the rows are estimated again with it. Its
 ///     numbers p minimise the sum of chi2 and of the squared errors of forces,
 ///     over their std, by Gauss and Newton, with contacts eliminated:
@@ -68,7 +70,7 @@ struct LogCause {
 ///     places, or times.
 LogCause FindLogCause(const LogEvidence& evidence, const Finger& finger,
                       const Scene& scene, const Discretization& discretization,
-                      int threads);
+                      int threads, bool needed);
 constexpr double kMostFactor = 3, kAsWell = 12;
 
 }  // namespace finray

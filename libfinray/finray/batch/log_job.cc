@@ -189,10 +189,16 @@ bool LogJob::Check() {
     if (finished_before_) return true;
   }
   FrameReader reader(log_, settings_->scene.columns);
+  GaugeFaultFinder finder(settings_->finger);
+  std::size_t row = 0;
+  const auto look = [&](const Measurements& readings) {
+    finder.Add(++row, readings.gauges_V, readings.Force().magnitude_N);
+  };
   if (!CheckStream(settings_->finger, settings_->scene, Options(), &reader,
-                   &bad_rows_)) {
+                   &bad_rows_, look)) {
     return false;
   }
+  faulty_ = !WordsOf(finder.Faults(), false).empty();
   frames_ = reader.position() - bad_rows_.size();
   if (frames_ == 0) {
     throw InputError(
@@ -267,13 +273,14 @@ bool LogJob::Run(FrameSolverPool* pool) {
 
 // Reads the log once more, as few logs need a cause.
 void LogJob::FindCause() {
-  if (!NeedsCause(summary_)) return;
+  const bool needed = NeedsCause(summary_);
+  if (!needed && !faulty_) return;
   LogEvidence evidence(settings_->finger, settings_->scene);
   FrameReader reader(log_, settings_->scene.columns);
   ReadStream(settings_->finger, settings_->scene, Options(), &reader,
              [&](const Measurements& row) { evidence.Add(row); });
   cause_ = FindLogCause(evidence, settings_->finger, settings_->scene,
-                        settings_->discretization, settings_->threads);
+                        settings_->discretization, settings_->threads, needed);
 }
 
 bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {

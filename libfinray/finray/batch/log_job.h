@@ -83,7 +83,8 @@ class LogJob {
   std::size_t frames() const { return frames_; }
   /// Summary of all frames written so far, by this run or an earlier one.
   const EstimationSummary& summary() const { return summary_; }
-  /// Why the finger does not fit the log, if a warning says that it does not.
+  /// Why the finger does not fit the log, if a warning says that it does not,
+  /// or what is wrong with its gauges.
   const LogCause& cause() const { return cause_; }
   /// The damaged file of an interrupted run of which Run() could not keep all
   /// checkpoints, or "".
@@ -110,7 +111,7 @@ class LogJob {
   std::filesystem::file_time_type written_;
   std::uintmax_t bytes_ = 0;
   std::size_t frames_ = 0;
-  bool finished_before_ = false;
+  bool finished_before_ = false, faulty_ = false;
   EstimationSummary summary_;
   LogCause cause_;
 };

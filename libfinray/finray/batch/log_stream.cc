@@ -262,13 +262,16 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
 
 bool CheckStream(const Finger& finger, const Scene& scene,
                  const StreamOptions& options, FrameReader* reader,
-                 std::vector<BadRow>* bad_rows) {
+                 std::vector<BadRow>* bad_rows,
+                 const std::function<void(const Measurements&)>& take) {
   const FrameParser& parser = reader->parser();
   const ResultLayout layout(finger, scene, parser, options.format);
   RequireTimeForCreep(finger, parser.names(), parser.path());
   return ForEachBlock(
-      options, kCheckedRows, reader, kIndependent, [](Block*) {},
+      options, kCheckedRows, reader, kIndependent,
+      [&](Block* block) { ReadReadings(layout, block); },
       [&](const Block& block) {
+        for (const Measurements& row : block.readings) take(row);
         bad_rows->insert(bad_rows->end(), block.bad_rows.begin(),
                          block.bad_rows.end());
         if (bad_rows->size() > kMostBadRows) {

@@ -66,10 +66,11 @@ struct BadRow {
 
 /// Only reads and parses a log. Throws InputError at the first bad place. With
 /// skip_bad_rows, it appends bad rows to `bad_rows` and throws only if there
-/// are more than 100 000 of them.
+/// are more than 100 000 of them. Hands out good rows one by one and in order.
 bool CheckStream(const Finger& finger, const Scene& scene,
                  const StreamOptions& options, FrameReader* reader,
-                 std::vector<BadRow>* bad_rows);
+                 std::vector<BadRow>* bad_rows,
+                 const std::function<void(const Measurements&)>& take);
 
 }  // namespace finray
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "finray/io/number_text.h"
 
@@ -39,7 +40,9 @@ void GaugeFaultFinder::Range::Add(const Range& other) {
 }
 
 GaugeFaultFinder::GaugeFaultFinder(const Finger& finger)
-    : gauges_(finger.gauges.size()), all_(finger.gauges.size()) {
+    : standstill_(finger),
+      gauges_(finger.gauges.size()),
+      all_(finger.gauges.size()) {
   for (const Gauge& gauge : finger.gauges) noise_V_.push_back(gauge.noise_V);
 }
 
@@ -81,7 +84,9 @@ void GaugeFaultFinder::AddToExtreme(double sign, double volts, std::size_t row,
 }
 
 void GaugeFaultFinder::Add(std::size_t row,
-                           const std::vector<double>& readings_V) {
+                           const std::vector<double>& readings_V,
+                           double force_N) {
+  standstill_.Add(row, readings_V, force_N);
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     const double volts = readings_V[j];
     if (!std::isfinite(volts)) continue;
@@ -92,7 +97,8 @@ void GaugeFaultFinder::Add(std::size_t row,
     AddTo(row, readings_V, &series.run);
     // A longer one in which the others rest tells nothing.
     const auto told = [&](const Same& same) {
-      return MovedBy(same.all, static_cast<int>(j), 0) > kMoves ? same.rows : 0;
+      const double moved = MovedBy(same.all, static_cast<int>(j), 0);
+      return std::pair(moved > kMoves, moved > kNoiseRange ? same.rows : 0);
     };
     if (series.run.rows >= kStillRows &&
         told(series.run) > told(series.longest)) {
@@ -153,10 +159,11 @@ std::optional<GaugeFault> GaugeFaultFinder::Still(int gauge,
   const bool fine = step_V < noise_V_[gauge] ||
                     all_[gauge].width() > 20 * step_V ||
                     all_[gauge].width() == 0;
-  if (same.rows < kStillRows || !fine ||
-      MovedBy(same.all, gauge, step_V) < kMoves) {
-    return {};
-  }
+  if (same.rows < kStillRows || !fine) return {};
+  const double moved = MovedBy(same.all, gauge, step_V);
+  const bool frozen = moved > kNoiseRange && step_V == 0 &&
+                      standstill_.IsFrozen(gauge, same.first);
+  if (moved < kMoves && !frozen) return {};
   return GaugeFault{
       GaugeFault::Kind::kStill, gauge, 0,
       GaugeWords(gauge) + FormatText(" is stuck at %.6g V ", same.volts) +
@@ -240,8 +247,24 @@ std::optional<GaugeFault> GaugeFaultFinder::Clipped(int gauge,
   return {};
 }
 
+std::optional<GaugeFault> GaugeFaultFinder::AllStill() const {
+  std::string words = standstill_.StillWords();
+  // Coarse gauges repeat themselves.
+  for (int j = 0; words.empty() && j < static_cast<int>(gauges_.size()); ++j) {
+    if (!gauges_[j].some_V.empty() && !StepOfGauge(j)) {
+      words = standstill_.FrozenWords();
+    }
+  }
+  if (words.empty()) return {};
+  return GaugeFault{GaugeFault::Kind::kAllStill, 0, 0, std::move(words)};
+}
+
 std::vector<GaugeFault> GaugeFaultFinder::Faults() const {
   std::vector<GaugeFault> faults;
+  if (std::optional<GaugeFault> all = AllStill()) {
+    faults.push_back(std::move(*all));
+    return faults;
+  }
   for (int j = 0; j < static_cast<int>(gauges_.size()); ++j) {
     const std::optional<double> step = StepOfGauge(j);
     std::optional<GaugeFault> fault = Still(j, step.value_or(0));
@@ -257,6 +280,15 @@ std::vector<GaugeFault> GaugeFaultFinder::Faults() const {
     if (fault) faults.push_back(std::move(*fault));
   }
   return faults;
+}
+
+std::string WordsOf(const std::vector<GaugeFault>& faults, bool steps) {
+  std::string words;
+  for (const GaugeFault& fault : faults) {
+    if ((fault.kind == GaugeFault::Kind::kCoarse) != steps) continue;
+    words += (words.empty() ? "" : ", ") + fault.words;
+  }
+  return words;
 }
 
 std::optional<double> StepOf(std::vector<double> readings_V, double least) {

@@ -7,18 +7,20 @@
 #include <vector>
 
 #include "finray/finger/finger.h"
+#include "finray/scene/gauge_standstill.h"
 
 namespace finray {
 
 /// What is wrong with the device behind a gauge, seen in its readings alone.
 struct GaugeFault {
   enum class Kind {
-    kStill,    ///< It hardly moves while the others do.
-    kClipped,  ///< It ends at a value that many rows share.
-    kCoarse,   ///< It has steps far above its noise.
+    kAllStill,  ///< All gauges do not move, or are frozen.
+    kStill,     ///< It hardly moves while the others do.
+    kClipped,   ///< It ends at a value that many rows share.
+    kCoarse,    ///< It has steps far above its noise.
   };
   Kind kind;
-  int gauge = 0;
+  int gauge = 0;      ///< Not of kAllStill.
   double step_V = 0;  ///< Of kCoarse.
   /// "gauge 2 is stuck at 0.123 V from row 31 to 80 while the others move".
   std::string words;
@@ -37,19 +39,24 @@ struct GaugeFault {
 /// the next one, which a converter's steps alone do not make. Both count only
 /// if the others move in these rows: one of them by more than kMoves times the
 /// greater of its own noise_V and the step of j, over blocks all of them by
-/// half of what they move in the log. It is coarse if all of its readings are
-/// multiples of a step above kCoarseStep noise_V (StepOf). Rows that repeat all
-/// gauges are no fault.
+/// half of what they move in the log. It stands still too if it is frozen
+/// (GaugeStandstill), has no steps above half its noise_V, and another moves by
+/// kNoiseRange in these rows. It is coarse if all of its readings are multiples
+/// of a step above kCoarseStep noise_V (StepOf). Rows that repeat all gauges
+/// are no fault, unless GaugeStandstill finds that all are frozen. If all stand
+/// still, that is the only fault.
 class GaugeFaultFinder {
  public:
   static constexpr int kStillRows = 20, kClippedRows = 5, kStillBlocks = 4;
   static constexpr std::size_t kMostBlocks = 64;
-  static constexpr double kMoves = 30, kNoiseRange = 9, kCoarseStep = 2,
-                          kPiledUp = 3;
+  static constexpr double kMoves = 30, kCoarseStep = 2, kPiledUp = 3,
+                          kNoiseRange = GaugeStandstill::kNoiseRange;
 
   explicit GaugeFaultFinder(const Finger& finger);
   /// Takes the next row, which counts from 1; NaN where nothing was read.
-  void Add(std::size_t row, const std::vector<double>& readings_V);
+  /// The force is that of a sensor, or NaN.
+  void Add(std::size_t row, const std::vector<double>& readings_V,
+           double force_N);
   std::vector<GaugeFault> Faults() const;
 
  private:
@@ -92,16 +99,21 @@ class GaugeFaultFinder {
                     Extreme* extreme) const;
   double MovedBy(const std::vector<Range>& all, int gauge, double step_V) const;
   std::optional<double> StepOfGauge(int gauge) const;
+  std::optional<GaugeFault> AllStill() const;
   std::optional<GaugeFault> Still(int gauge, double step_V) const;
   std::optional<GaugeFault> StillInBlocks(int gauge) const;
   std::optional<GaugeFault> Clipped(int gauge, double step_V) const;
 
+  GaugeStandstill standstill_;
   std::vector<double> noise_V_;
   std::vector<Series> gauges_;
   std::vector<Range> all_;
   std::vector<Block> blocks_;
   std::size_t rows_of_block_ = 1, rows_ = 0;
 };
+
+/// The words of the faults that are steps of converters, or of all others.
+std::string WordsOf(const std::vector<GaugeFault>& faults, bool steps);
 
 /// Returns the step of which all differences of these readings are multiples,
 /// if there is one above `least`.

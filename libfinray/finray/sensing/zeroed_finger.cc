@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "finray/finger/possible_reading.h"
@@ -36,6 +37,19 @@ Mean MeanOf(const std::vector<Measurements>& rows, int gauge,
     of.scatter = std::sqrt(squares / static_cast<double>(of.count - 1));
   }
   return of;
+}
+
+// Returns true if a gauge varies by more than noise.
+bool Moves(const std::vector<Measurements>& rows, std::size_t gauge,
+           const Gauge& its) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Measurements& row : rows) {
+    const double volts = row.gauges_V[gauge];
+    if (!its.IsMeasured(volts)) continue;
+    low = std::min(low, volts);
+    high = std::max(high, volts);
+  }
+  return high - low > GaugeStandstill::kNoiseRange * its.noise_V;
 }
 
 // Returns dg/dx by central differences of a tenth of a std.
@@ -103,6 +117,33 @@ void RenewCovariance(const Discretization& discretization,
   renewed.friction = old.friction;
   renewed.discrepancy = old.discrepancy;
   finger->calibration = InOrderOf(*finger, renewed);
+}
+
+// Throws if gauges do not move.
+void RefuseStill(const Finger& finger, const ZeroedFinger& zeroed,
+                 const std::string& source, const ZeroCheck& check) {
+  if (zeroed.fewest < kFewZeroRows) return;
+  std::string gauges;
+  int count = 0;
+  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    const double near_V = kNear * gauge.noise_V;
+    const bool is_expected = std::abs(gauge.offset_V) > near_V &&
+                             std::abs(zeroed.change_V[j]) < near_V;
+    if (zeroed.scatter_V[j] > kStill * gauge.noise_V || is_expected ||
+        (check.log && Moves(*check.log, j, gauge))) {
+      continue;
+    }
+    gauges += (count++ > 0 ? ", " : "") + std::to_string(j + 1);
+  }
+  if (gauges.empty()) return;
+  throw InputError(
+      source + (count > 1 ? ": gauges " : ": gauge ") + gauges +
+      (count > 1 ? " do" : " does") + " not move in " +
+      std::to_string(zeroed.rows) +
+      " rows, not even by noise: dead, unplugged, or in another unit (V taken "
+      "for mV?); mend that, or state --allow_touch if its converter has steps "
+      "above its noise");
 }
 
 // Throws if one contact explains the mean readings by the old offsets.
@@ -209,6 +250,7 @@ ZeroedFinger ZeroGauges(const Finger& finger,
     gauge.offset_V = offset;
   }
   if (!check.touch_allowed) {
+    RefuseStill(finger, zeroed, source, check);
     RefuseTouch(finger, discretization, free_V, means, zeroed, source, check);
   }
   if (finger.calibration) {

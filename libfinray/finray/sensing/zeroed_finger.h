@@ -8,6 +8,7 @@
 
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
+#include "finray/scene/gauge_standstill.h"
 #include "finray/scene/measurements.h"
 
 namespace finray {
@@ -16,6 +17,8 @@ namespace finray {
 struct ZeroCheck {
   double friction = 0;  ///< Of the contact that rows are tried with.
   bool touch_allowed = false;
+  /// The log that has the free rows, to see whether a gauge ever moves.
+  const std::vector<Measurements>* log = nullptr;
 };
 
 /// A finger whose gauges were zeroed.
@@ -45,14 +48,19 @@ struct ZeroedFinger {
 ///
 /// Throws InputError with `source` if there are fewer than kLeastZeroRows rows
 /// with readings of a gauge, if a gauge varies by more than kSteady times its
-/// noise, if the finger has no equilibrium, or if something touches it: with
-/// the old offsets the mean readings, of two gauges or more, are those of one
-/// contact and not those of the free finger. With chi2 in units of the noise of
-/// one reading that is so if the contact lowers it by
+/// noise or does not move, if the finger has no equilibrium, or if something
+/// touches it: with the old offsets the mean readings, of two gauges or more,
+/// are those of one contact and not those of the free finger. With chi2 in
+/// units of the noise of one reading that is so if the contact lowers it by
 /// FrameEstimator::kSignificance and its force is no less than LeastForce_N,
 /// and it explains the means (p >= FrameEstimate::kUnexplained) or leaves less
 /// than kTouchLeaves of the root of chi2, which offsets that move by themselves
-/// rarely do.
+/// rarely do. A gauge does not move if kFewZeroRows or more readings scatter by
+/// no more than kStill times its noise, and in the log it varies by no more
+/// than GaugeStandstill::kNoiseRange times it. Coarse steps of a converter may
+/// do that too, so it may if it reads what a finger with an offset that is not
+/// zero says, both within kNear times its noise. touch_allowed leaves out the
+/// looks for touches and for such gauges.
 ZeroedFinger ZeroGauges(const Finger& finger,
                         const Discretization& discretization,
                         const std::vector<Measurements>& free_rows,
@@ -63,8 +71,9 @@ Eigen::VectorXd FreeVolts(const Finger& finger,
                           const Discretization& discretization);
 constexpr std::size_t kLeastZeroRows = 3;
 constexpr std::size_t kFewZeroRows = 10;  ///< With fewer a caller warns.
-/// A caller warns of a gauge that scatters by less than kStill times its noise.
-constexpr double kStill = 0.05;
+/// Of gauges that are let pass although they do not move, a caller warns.
+constexpr double kStill = GaugeStandstill::kNoNoise;
+constexpr double kNear = 3;
 constexpr double kTouchLeaves = 0.05;
 constexpr double kSteady = 5;
 

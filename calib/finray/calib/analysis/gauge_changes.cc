@@ -304,7 +304,8 @@ std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
   for (const CalibrationFrame& frame : logs.frames) {
     if (frame.IsBench()) continue;
     const auto at = finders.try_emplace(frame.log, finger).first;
-    at->second.Add(static_cast<std::size_t>(frame.row) + 1, frame.gauges_V);
+    at->second.Add(static_cast<std::size_t>(frame.row) + 1, frame.gauges_V,
+                   frame.Force().magnitude_N);
   }
   std::map<int, std::vector<GaugeFault>> found;
   for (const auto& [log, finder] : finders) {
@@ -312,15 +313,6 @@ std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
     if (!faults.empty()) found[log] = std::move(faults);
   }
   return found;
-}
-
-std::string WordsOf(const std::vector<GaugeFault>& faults, bool steps) {
-  std::string words;
-  for (const GaugeFault& fault : faults) {
-    if ((fault.kind == GaugeFault::Kind::kCoarse) != steps) continue;
-    words += (words.empty() ? "" : ", ") + fault.words;
-  }
-  return words;
 }
 
 }  // namespace finray

@@ -44,9 +44,6 @@ void RefuseCoarserSteps(const CalibrationLogs& logs, const Finger& finger);
 std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
     const CalibrationLogs& logs, const Finger& finger);
 
-/// The words of the faults that are steps of converters, or of all others.
-std::string WordsOf(const std::vector<GaugeFault>& faults, bool steps);
-
 }  // namespace finray
 
 #endif  // FINRAY_CALIB_ANALYSIS_GAUGE_CHANGES_H_
