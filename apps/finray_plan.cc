@@ -6,6 +6,7 @@
 
 #include "app.h"
 #include "finger_picture.h"
+#include "finray/calib/analysis/plausibility.h"
 #include "finray/calib/design/recording_plan.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/atomic_file.h"
@@ -46,13 +47,20 @@ using namespace finray;
 
 constexpr int kLeastRows = 12;  // fewer tell no finger
 
-RecordingLimits LimitFlags() {
+RecordingLimits LimitFlags(const Finger& finger) {
   RecordingLimits limits;
   const auto x = RangeFlag("x_mm", Required("x_mm", FLAGS_x_mm));
   const auto y = RangeFlag("y_mm", Required("y_mm", FLAGS_y_mm));
   limits.from_mm = {x.first, y.first};
   limits.to_mm = {x.second, y.second};
   limits.force_max_N = PositiveFlag("force_max_N", FLAGS_force_max_N);
+  const double most_N = kMostForce * ForceUnit(finger);
+  if (limits.force_max_N > most_N) {
+    throw UsageError(FormatText(
+        "--force_max_N %.6g: expected at most %.3g, %.0f EI / l_0^2 of this "
+        "finger",
+        limits.force_max_N, most_N, kMostForce));
+  }
   return limits;
 }
 
@@ -116,7 +124,7 @@ int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   const Plan plan = ReadPlan(Required("plan", FLAGS_plan));
   Required("out_dir", FLAGS_out_dir);
-  const RecordingLimits limits = LimitFlags();
+  const RecordingLimits limits = LimitFlags(finger);
   const RecordingTarget target = TargetFlags(finger);
   if (FLAGS_most_frames < kLeastRows) {
     throw UsageError("--most_frames: expected at least " +

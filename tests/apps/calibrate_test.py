@@ -103,6 +103,12 @@ class CalibrateTest(unittest.TestCase):
         self.assertEqual(done.returncode, 4, done.stderr)
         return done.stderr
 
+    def test_forces_that_no_finger_bears_are_refused(self):
+        done = self.run_tool("plan", f"--finger {FINGER} --plan {PLAN} --force_max_N 1e18 --target_force_N 0.1 --noreport --out_dir out "
+                             "--x_mm -30:15 --y_mm 0:150")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "--force_max_N 1e.18: expected at most [0-9.]+, 400 EI / l_0\\^2")
+
     # 100 rows and 400 rows give 83.2 and 83.3 %.
     def test_rows_that_do_not_help_are_not_advised(self):
         errors = self.planned("--x_mm -30:-12 --y_mm 0:150 --target_force_N 0.08 --most_frames 100")
