@@ -127,6 +127,30 @@ TEST(DifferingLogsTest, ExploreNamesNoCauseThatDoesNotExplain) {
             "no effect that finray knows explains the logs");
 }
 
+// Rows before a step of 30 mV, too small to be found before the solve, are
+// rejected; the doubt names the row of the step.
+TEST(DifferingLogsTest, AStepThatRejectsTheRowsBeforeItIsNamed) {
+  FrameTable log =
+      FrameTable::Read(FINRAY_SOURCE_DIR "/datasets/simulated_r15/train.csv");
+  for (std::size_t i = 40; i < log.rows(); ++i) {
+    for (const char* gauge : {"gauge_1_V", "gauge_2_V"}) {
+      log.MutableNumbers(gauge)[i] += 0.03;
+    }
+  }
+  const TempFolder folder;
+  log.Write(folder.Path("log.csv"));
+  const Plan plan =
+      ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/force_and_circle.yaml");
+  CalibrationProblem problem(
+      PaperFinger(), plan,
+      ReadCalibrationLogs({folder.Path("log.csv")}, PaperFinger(), plan), {},
+      2);
+  EXPECT_THAT(Calibrate(&problem, false).doubts,
+              testing::Contains(HasSubstr(
+                  "early rows, nearly all up to row 40 of log.csv: something "
+                  "changes there")));
+}
+
 // Where few enough rows are of another kind, they are outliers. They are not of
 // the same rows as the others then, and that is a doubt.
 TEST(DifferingLogsTest, RejectedRowsOfOneEndAreADoubt) {

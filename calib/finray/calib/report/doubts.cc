@@ -117,6 +117,47 @@ double HeightOf(const CalibrationFrame& frame) {
 // Rows count from 1.
 double RowOf(const CalibrationFrame& frame) { return frame.row + 1; }
 
+// Names the row at which a log changes, if the rows on one side of it are
+// rejected and those on the other are not, with few exceptions.
+std::string ChangeInWords(const CalibrationProblem& problem) {
+  struct Row {
+    int row;
+    bool rejected;
+  };
+  std::map<int, std::vector<Row>> logs;
+  for (const int i : problem.candidates()) {
+    const CalibrationFrame& frame = problem.frame(i);
+    if (!frame.contact) continue;
+    logs[frame.log].push_back({frame.row, problem.rejected().count(i) > 0});
+  }
+  for (auto& [log, rows] : logs) {
+    std::sort(rows.begin(), rows.end(),
+              [](const Row& a, const Row& b) { return a.row < b.row; });
+    const auto rejected = static_cast<int>(std::count_if(
+        rows.begin(), rows.end(), [](const Row& row) { return row.rejected; }));
+    const auto fitted = static_cast<int>(rows.size()) - rejected;
+    if (rejected < kLeastOfChange || fitted < kLeastOfChange) continue;
+    int before = 0;  // rejected rows, less the fitted ones
+    double fewest = kMostExceptions * rejected;
+    std::string words;
+    for (const Row& row : rows) {
+      before += row.rejected ? 1 : -1;
+      // Exceptions if what is up to this row is rejected, or what is behind it.
+      const int early = rejected - before, late = fitted + before;
+      if (std::min(early, late) > fewest) continue;
+      fewest = std::min(early, late);
+      words = FormatText(", nearly all %s row %d of ",
+                         early < late ? "up to" : "behind", row.row + 1);
+    }
+    if (words.empty()) continue;
+    return words + problem.logs().names[log] +
+           ": something changes there, such as offsets of gauges; give the "
+           "rows before and after as logs of their own, with gauge_offset: "
+           "{per_log: true}";
+  }
+  return "";
+}
+
 void DoubtRejected(const CalibrationProblem& problem,
                    std::vector<std::string>* doubts) {
   const std::pair<double (*)(const CalibrationFrame&),
@@ -136,7 +177,8 @@ void DoubtRejected(const CalibrationProblem& problem,
     if (std::abs(apart) < kRanksApart) continue;
     doubts->push_back(
         FormatText("the %zu rejected frames are of ", rejected.size()) +
-        (apart < 0 ? ends.first : ends.second));
+        (apart < 0 ? ends.first : ends.second) +
+        (of == RowOf ? ChangeInWords(problem) : ""));
   }
 }
 

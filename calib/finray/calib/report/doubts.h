@@ -33,6 +33,9 @@ std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
                                     const CalibrationResult& result);
 constexpr double kFewer = 3, kFewerPercent = 2.5, kRanksApart = 3.5;
 constexpr std::size_t kLeastRejected = 3;
+/// Rows on each side of a change, and exceptions as a share of rejected rows.
+constexpr int kLeastOfChange = 10;
+constexpr double kMostExceptions = 0.1;
 
 /// "gauge residuals are 0.40 of what their std says (chi2/dof 0.16)".
 std::string QuietInWords(ResidualFamily family,
