@@ -112,7 +112,8 @@ TEST(PlausibilityTest, RefusesDeadGauges) {
       RefusalOf({"gauge_2_V"}, [&](double) { return 1e-3 * (++i % 7); }),
       HasSubstr("gauge_2_V does not respond"));
   EXPECT_THAT(RefusalOf(kGaugeColumns, [](double) { return 0.1; }),
-              HasSubstr("gauge_1_V does not respond"));
+              HasSubstr("gauges 1 to 4 do not move in 210 rows, not even by "
+                        "their noise, while force_N varies by"));
 }
 
 TEST(PlausibilityTest, RefusesAGaugeOfTheWrongSign) {

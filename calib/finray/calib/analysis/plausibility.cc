@@ -112,9 +112,12 @@ void RefuseFaultyGauges(const CalibrationProblem& problem) {
        FindGaugeFaults(problem.logs(), problem.finger())) {
     const std::string words = WordsOf(faults, false);
     if (words.empty()) continue;
-    throw InputError("logs: " + problem.logs().names[log] + ": " + words +
-                     ": check its wiring, its range and its column; leave "
-                     "these cells empty, or record anew");
+    const bool all = faults[0].kind == GaugeFault::Kind::kAllStill;
+    throw InputError(
+        "logs: " + problem.logs().names[log] + ": " + words +
+        (all ? "; look at the cable, the unit and the logger, and record anew"
+             : ": check its wiring, its range and its column; leave these "
+               "cells empty, or record anew"));
   }
 }
 
