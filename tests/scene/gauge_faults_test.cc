@@ -38,7 +38,7 @@ std::vector<std::string> FaultsOf(
     for (double& v : volts) v += noise(generator);
     const double force_N = 3 * load;
     change(row, &volts);
-    finder.Add(row, volts, force_N);
+    finder.Add(row, volts, force_N, 1);
   }
   std::vector<std::string> words;
   for (const GaugeFault& fault : finder.Faults()) words.push_back(fault.words);
@@ -108,6 +108,15 @@ TEST(GaugeFaultsTest, AllGaugesThatDoNotMove) {
                     "gauges 1 to 3 do not move in 600 rows, not even by their "
                     "noise, while force_N varies by 3 N: dead")));
   }
+}
+
+// A quiet finger rests on one step of coarse converters for most of a log.
+TEST(GaugeFaultsTest, ARestOnCoarseStepsIsNotFrozen) {
+  EXPECT_THAT(FaultsOf([](std::size_t row, std::vector<double>* volts) {
+                if (row <= 540) *volts = {0.1, 0.2, 0};
+                for (double& v : *volts) v = std::round(v / 5e-4) * 5e-4;
+              }),
+              IsEmpty());
 }
 
 TEST(GaugeFaultsTest, AFrozenLogger) {

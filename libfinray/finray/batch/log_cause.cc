@@ -59,8 +59,8 @@ struct Tried {
 constexpr int kMostExchanged = 16;
 
 constexpr char kAllStillRemedy[] =
-    "look at the cable, the unit and the logger; do not zero the gauges by "
-    "these rows";
+    "look at the cable, the unit and the logger; a zero of these rows would "
+    "make the finger blind";
 constexpr char kZero[] = "zero the gauges with finray_zero";
 constexpr char kCalibrate[] = "calibrate the finger anew, or look for damage";
 
@@ -741,7 +741,8 @@ LogEvidence::LogEvidence(const Finger& finger, const Scene& scene)
 
 void LogEvidence::Add(Measurements row) {
   const std::size_t pair = count_ / 2;
-  faults_.Add(++count_, row.gauges_V, row.Force().magnitude_N);
+  faults_.Add(++count_, row.gauges_V, row.Force().magnitude_N,
+              row.gauge_readings);
   if (!history_.empty()) history_.Remove(&row);
   if (pair % stride_ != 0) return;
   if (rows_.size() == kMostRows) {

@@ -10,6 +10,8 @@
 namespace finray {
 namespace {
 
+// With steps below this share of its noise a gauge does not repeat a reading.
+constexpr double kLeastStep = GaugeStandstill::kNoNoise;
 // So many readings tell the step of a converter.
 constexpr std::size_t kMostForStep = 512;
 
@@ -41,6 +43,7 @@ void GaugeFaultFinder::Range::Add(const Range& other) {
 
 GaugeFaultFinder::GaugeFaultFinder(const Finger& finger)
     : standstill_(finger),
+      laws_(finger.gauges),
       gauges_(finger.gauges.size()),
       all_(finger.gauges.size()) {
   for (const Gauge& gauge : finger.gauges) noise_V_.push_back(gauge.noise_V);
@@ -83,10 +86,17 @@ void GaugeFaultFinder::AddToExtreme(double sign, double volts, std::size_t row,
   }
 }
 
-void GaugeFaultFinder::Add(std::size_t row,
-                           const std::vector<double>& readings_V,
-                           double force_N) {
-  standstill_.Add(row, readings_V, force_N);
+void GaugeFaultFinder::Add(std::size_t row, const std::vector<double>& row_V,
+                           double force_N, double readings) {
+  // A saturated reading is none.
+  std::vector<double>& readings_V = measured_V_;
+  readings_V = row_V;
+  for (std::size_t j = 0; j < gauges_.size(); ++j) {
+    if (!laws_[j].IsMeasured(readings_V[j])) {
+      readings_V[j] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  standstill_.Add(row, readings_V, force_N, readings);
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     const double volts = readings_V[j];
     if (!std::isfinite(volts)) continue;
@@ -106,7 +116,11 @@ void GaugeFaultFinder::Add(std::size_t row,
     }
     AddToExtreme(-1, volts, row, readings_V, &series.least);
     AddToExtreme(1, volts, row, readings_V, &series.greatest);
-    if (series.some_V.size() < kMostForStep) series.some_V.push_back(volts);
+    // A rest at the begin tells no step.
+    if (series.some_V.size() < kMostForStep &&
+        (series.some_V.empty() || volts != series.some_V.back())) {
+      series.some_V.push_back(volts);
+    }
     all_[j].Add(volts);
   }
   if (blocks_.empty() || blocks_.back().rows == rows_of_block_) {
@@ -251,7 +265,8 @@ std::optional<GaugeFault> GaugeFaultFinder::AllStill() const {
   std::string words = standstill_.StillWords();
   // Coarse gauges repeat themselves.
   for (int j = 0; words.empty() && j < static_cast<int>(gauges_.size()); ++j) {
-    if (!gauges_[j].some_V.empty() && !StepOfGauge(j)) {
+    if (all_[j].width() > 0 &&
+        !StepOf(gauges_[j].some_V, kLeastStep * noise_V_[j])) {
       words = standstill_.FrozenWords();
     }
   }

@@ -55,8 +55,9 @@ class GaugeFaultFinder {
   explicit GaugeFaultFinder(const Finger& finger);
   /// Takes the next row, which counts from 1; NaN where nothing was read.
   /// The force is that of a sensor, or NaN.
-  void Add(std::size_t row, const std::vector<double>& readings_V,
-           double force_N);
+  /// Each reading is a mean of so many.
+  void Add(std::size_t row, const std::vector<double>& row_V, double force_N,
+           double readings);
   std::vector<GaugeFault> Faults() const;
 
  private:
@@ -105,6 +106,8 @@ class GaugeFaultFinder {
   std::optional<GaugeFault> Clipped(int gauge, double step_V) const;
 
   GaugeStandstill standstill_;
+  std::vector<Gauge> laws_;
+  std::vector<double> measured_V_;  // of the last row, NaN where saturated
   std::vector<double> noise_V_;
   std::vector<Series> gauges_;
   std::vector<Range> all_;

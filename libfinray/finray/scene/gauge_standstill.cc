@@ -50,8 +50,8 @@ GaugeStandstill::GaugeStandstill(const Finger& finger)
       most_force_N_(-kInfinity) {}
 
 void GaugeStandstill::Add(std::size_t row,
-                          const std::vector<double>& readings_V,
-                          double force_N) {
+                          const std::vector<double>& readings_V, double force_N,
+                          double readings) {
   bool any = false, all_same = true;
   for (std::size_t j = 0; j < series_.size(); ++j) {
     const double volts = readings_V[j];
@@ -61,7 +61,8 @@ void GaugeStandstill::Add(std::size_t row,
     any = true;
     all_same &= same;
     if (std::isfinite(series.last_V)) {
-      series.squares_V2 += (volts - series.last_V) * (volts - series.last_V);
+      series.squares_V2 +=
+          readings * (volts - series.last_V) * (volts - series.last_V);
       ++series.changes;
     }
     series.last_V = volts;
@@ -79,7 +80,7 @@ void GaugeStandstill::Add(std::size_t row,
 
 std::string GaugeStandstill::StillWords() const {
   if (rows_ < kStandRows) return "";
-  bool away = false, constant = true;
+  bool away = false, constant = true, zero = true;
   for (std::size_t j = 0; j < series_.size(); ++j) {
     const Series& series = series_[j];
     if (series.changes == 0) continue;
@@ -93,10 +94,12 @@ std::string GaugeStandstill::StillWords() const {
     }
     away |= std::abs(series.last_V - gauge.offset_V) > kAway * gauge.noise_V;
     constant &= range_V == 0;
+    zero &= series.low_V == 0 && series.high_V == 0;
   }
   const bool read = most_force_N_ >= least_force_N_;
   const bool touched = read && most_force_N_ - least_force_N_ > kTouch_N;
-  if (!touched && !away && (read || !constant || rows_ < kLongRows)) return "";
+  const bool wrong = !read && (away || zero);
+  if (!touched && (!wrong || (constant && rows_ < kLongRows))) return "";
   std::string words =
       series_.size() == 1
           ? "gauge 1 does not move"

@@ -14,11 +14,11 @@ namespace finray {
 ///
 /// All gauges stand still if in kStandRows or more rows the readings of each
 /// have a range of at most kNoiseRange noise_V, and their changes d from one to
-/// the next are far below noise, mean d^2 / 2 <= (kNoNoise noise_V)^2. This
-/// counts if something contradicts a free finger at rest, which coarse steps of
-/// a converter may show alike: force_N varies by more than kTouch_N, a reading
-/// is more than kAway noise_V from its offset, or, where no force is read, all
-/// readings of each of kLongRows or more rows are the same numbers.
+/// the next are far below noise, mean d^2 / 2 <= (kNoNoise noise_V)^2. Coarse
+/// steps of a converter show a finger at rest alike, so this counts only if
+/// force_N varies by more than kTouch_N, or, where no force is read, if a
+/// reading is more than kAway noise_V from its offset or all are 0 V, and they
+/// are not the same numbers in fewer than kLongRows rows.
 ///
 /// All gauges, or one, are frozen in a run of rows with the same numbers that
 /// is kLonger times as long as any other: of kStandRows or more rows to the end
@@ -27,13 +27,14 @@ namespace finray {
 class GaugeStandstill {
  public:
   static constexpr std::size_t kStandRows = 20, kLongRows = 100, kLonger = 10;
-  static constexpr double kNoiseRange = 9, kNoNoise = 0.05, kTouch_N = 0.2,
+  static constexpr double kNoiseRange = 9, kNoNoise = 0.05, kTouch_N = 0.5,
                           kAway = 10;
 
   explicit GaugeStandstill(const Finger& finger);
   /// Takes the next row, which counts from 1; NaN where nothing was read.
+  /// Each reading is a mean of so many.
   void Add(std::size_t row, const std::vector<double>& readings_V,
-           double force_N);
+           double force_N, double readings);
   /// "gauges 1 to 4 do not move ...", or "" if one of them does.
   std::string StillWords() const;
   /// "all gauges read the same from row 251 to 796 ...", or "".

@@ -143,7 +143,7 @@ void RefuseStill(const Finger& finger, const ZeroedFinger& zeroed,
       std::to_string(zeroed.rows) +
       " rows, not even by noise: dead, unplugged, or in another unit (V taken "
       "for mV?); mend that, or state --allow_touch if its converter has steps "
-      "above its noise");
+      "above its noise, or its noise_V is too large");
 }
 
 // Throws if one contact explains the mean readings by the old offsets.

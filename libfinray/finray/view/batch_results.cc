@@ -107,13 +107,16 @@ bool IsBeside(const std::string& cause) {
 
 // What one warning of a log asks for.
 Kind KindOf(const Warning& warning) {
+  if (warning.code == "gauge_fault") return Kind::kRepair;
   if (warning.code != "unexplained_frames" && warning.code != "forces_differ") {
     return Kind::kWatch;
   }
   const std::vector<std::string> causes = CausesIn(warning.text);
   const std::string first = causes.empty() ? "" : causes.front();
   if (Contains(first, " is dead") || Contains(first, " is stuck at ") ||
-      Contains(first, " is clipped: ") ||
+      Contains(first, " is clipped: ") || Contains(first, " not move in ") ||
+      Contains(first, "all gauges read the same") ||
+      Contains(first, "1000 times too small") ||
       Contains(first, " has the wrong sign") ||
       Contains(first, " are swapped")) {
     return Kind::kRepair;

@@ -305,7 +305,7 @@ std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
     if (frame.IsBench()) continue;
     const auto at = finders.try_emplace(frame.log, finger).first;
     at->second.Add(static_cast<std::size_t>(frame.row) + 1, frame.gauges_V,
-                   frame.Force().magnitude_N);
+                   frame.Force().magnitude_N, frame.gauge_readings);
   }
   std::map<int, std::vector<GaugeFault>> found;
   for (const auto& [log, finder] : finders) {

@@ -138,7 +138,7 @@ std::string ChangeInWords(const CalibrationProblem& problem) {
     const auto fitted = static_cast<int>(rows.size()) - rejected;
     if (rejected < kLeastOfChange || fitted < kLeastOfChange) continue;
     int before = 0;  // rejected rows, less the fitted ones
-    double fewest = kMostExceptions * rejected;
+    double fewest = kMostExceptions * std::min(rejected, fitted);
     std::string words;
     for (const Row& row : rows) {
       before += row.rejected ? 1 : -1;
