@@ -80,7 +80,7 @@ void GaugeStandstill::Add(std::size_t row,
 
 std::string GaugeStandstill::StillWords() const {
   if (rows_ < kStandRows) return "";
-  bool away = false, constant = true, zero = true;
+  bool away = false, constant = true;
   for (std::size_t j = 0; j < series_.size(); ++j) {
     const Series& series = series_[j];
     if (series.changes == 0) continue;
@@ -94,12 +94,11 @@ std::string GaugeStandstill::StillWords() const {
     }
     away |= std::abs(series.last_V - gauge.offset_V) > kAway * gauge.noise_V;
     constant &= range_V == 0;
-    zero &= series.low_V == 0 && series.high_V == 0;
   }
   const bool read = most_force_N_ >= least_force_N_;
   const bool touched = read && most_force_N_ - least_force_N_ > kTouch_N;
-  const bool wrong = !read && (away || zero);
-  if (!touched && (!wrong || (constant && rows_ < kLongRows))) return "";
+  const bool wrong = constant ? rows_ >= kLongRows : away;
+  if (!touched && (read || !wrong)) return "";
   std::string words =
       series_.size() == 1
           ? "gauge 1 does not move"

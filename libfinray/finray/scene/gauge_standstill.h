@@ -16,9 +16,9 @@ namespace finray {
 /// have a range of at most kNoiseRange noise_V, and their changes d from one to
 /// the next are far below noise, mean d^2 / 2 <= (kNoNoise noise_V)^2. Coarse
 /// steps of a converter show a finger at rest alike, so this counts only if
-/// force_N varies by more than kTouch_N, or, where no force is read, if a
-/// reading is more than kAway noise_V from its offset or all are 0 V, and they
-/// are not the same numbers in fewer than kLongRows rows.
+/// force_N varies by more than kTouch_N, or, where no force is read, if all
+/// are the same numbers in kLongRows or more rows, or vary and are more than
+/// kAway noise_V from an offset.
 ///
 /// All gauges, or one, are frozen in a run of rows with the same numbers that
 /// is kLonger times as long as any other: of kStandRows or more rows to the end
