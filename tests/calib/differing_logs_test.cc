@@ -127,6 +127,19 @@ TEST(DifferingLogsTest, ExploreNamesNoCauseThatDoesNotExplain) {
             "no effect that finray knows explains the logs");
 }
 
+// Calibrates the paper's finger with a log.
+CalibrationResult ResultOf(const FrameTable& log) {
+  const TempFolder folder;
+  log.Write(folder.Path("log.csv"));
+  const Plan plan =
+      ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/force_and_circle.yaml");
+  CalibrationProblem problem(
+      PaperFinger(), plan,
+      ReadCalibrationLogs({folder.Path("log.csv")}, PaperFinger(), plan), {},
+      2);
+  return Calibrate(&problem);
+}
+
 // Rows before a step of 30 mV, too small to be found before the solve, are
 // rejected; the doubt names the row of the step.
 TEST(DifferingLogsTest, AStepThatRejectsTheRowsBeforeItIsNamed) {
@@ -137,15 +150,7 @@ TEST(DifferingLogsTest, AStepThatRejectsTheRowsBeforeItIsNamed) {
       log.MutableNumbers(gauge)[i] += 0.03;
     }
   }
-  const TempFolder folder;
-  log.Write(folder.Path("log.csv"));
-  const Plan plan =
-      ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/force_and_circle.yaml");
-  CalibrationProblem problem(
-      PaperFinger(), plan,
-      ReadCalibrationLogs({folder.Path("log.csv")}, PaperFinger(), plan), {},
-      2);
-  EXPECT_THAT(Calibrate(&problem, false).doubts,
+  EXPECT_THAT(ResultOf(log).doubts,
               testing::Contains(HasSubstr(
                   "early rows, nearly all up to row 40 of log.csv: something "
                   "changes there")));
@@ -159,15 +164,7 @@ TEST(DifferingLogsTest, RejectedRowsOfOneEndAreADoubt) {
   for (std::size_t i = 160; i < log.rows(); ++i) {
     log.MutableNumbers("force_N")[i] += 0.3;
   }
-  const TempFolder folder;
-  log.Write(folder.Path("log.csv"));
-  const Plan plan =
-      ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/force_and_circle.yaml");
-  CalibrationProblem problem(
-      PaperFinger(), plan,
-      ReadCalibrationLogs({folder.Path("log.csv")}, PaperFinger(), plan), {},
-      2);
-  const CalibrationResult result = Calibrate(&problem, false);
+  const CalibrationResult result = ResultOf(log);
   EXPECT_EQ(result.Verdict(), "doubtful");
   EXPECT_THAT(result.doubts, testing::Contains(HasSubstr("late rows")));
 }

@@ -38,7 +38,10 @@ std::vector<std::string> FaultsOf(
     for (double& v : volts) v += noise(generator);
     const double force_N = 3 * load;
     change(row, &volts);
-    finder.Add(row, volts, force_N, 1);
+    Measurements readings;
+    readings.gauges_V = volts;
+    readings.force_N = force_N;
+    finder.Add(row, readings);
   }
   std::vector<std::string> words;
   for (const GaugeFault& fault : finder.Faults()) words.push_back(fault.words);

@@ -741,8 +741,7 @@ LogEvidence::LogEvidence(const Finger& finger, const Scene& scene)
 
 void LogEvidence::Add(Measurements row) {
   const std::size_t pair = count_ / 2;
-  faults_.Add(++count_, row.gauges_V, row.Force().magnitude_N,
-              row.gauge_readings);
+  faults_.Add(++count_, row);
   if (!history_.empty()) history_.Remove(&row);
   if (pair % stride_ != 0) return;
   if (rows_.size() == kMostRows) {

@@ -46,7 +46,8 @@ struct LogCause {
 /// Looks for the cause in this order, and without `needed` only for faults of
 /// gauges.
 ///
-///  1. Gauges that are dead, stuck or clipped (GaugeFaultFinder) are the cause.
+///  1. Gauges that are dead, stuck, frozen or clipped
+///     (GaugeFaultFinder) are the cause.
 ///     So are coarse ones, if noise of the size of their steps explains the
 ///     rows, and readings that are 1000 times too small, if they explain them
 ///     as many times larger.

@@ -192,8 +192,7 @@ bool LogJob::Check() {
   GaugeFaultFinder finder(settings_->finger);
   std::size_t row = 0;
   const auto look = [&](const Measurements& readings) {
-    finder.Add(++row, readings.gauges_V, readings.Force().magnitude_N,
-               readings.gauge_readings);
+    finder.Add(++row, readings);
   };
   if (!CheckStream(settings_->finger, settings_->scene, Options(), &reader,
                    &bad_rows_, look)) {

@@ -45,9 +45,7 @@ GaugeFaultFinder::GaugeFaultFinder(const Finger& finger)
     : standstill_(finger),
       laws_(finger.gauges),
       gauges_(finger.gauges.size()),
-      all_(finger.gauges.size()) {
-  for (const Gauge& gauge : finger.gauges) noise_V_.push_back(gauge.noise_V);
-}
+      all_(finger.gauges.size()) {}
 
 void GaugeFaultFinder::Begin(double volts, std::size_t row, Same* same) {
   same->volts = volts;
@@ -86,17 +84,16 @@ void GaugeFaultFinder::AddToExtreme(double sign, double volts, std::size_t row,
   }
 }
 
-void GaugeFaultFinder::Add(std::size_t row, const std::vector<double>& row_V,
-                           double force_N, double readings) {
-  // A saturated reading is none.
+void GaugeFaultFinder::Add(std::size_t row, const Measurements& readings) {
   std::vector<double>& readings_V = measured_V_;
-  readings_V = row_V;
+  readings_V = readings.gauges_V;
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     if (!laws_[j].IsMeasured(readings_V[j])) {
       readings_V[j] = std::numeric_limits<double>::quiet_NaN();
     }
   }
-  standstill_.Add(row, readings_V, force_N, readings);
+  standstill_.Add(row, readings_V, readings.Force().magnitude_N,
+                  readings.gauge_readings);
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     const double volts = readings_V[j];
     if (!std::isfinite(volts)) continue;
@@ -157,20 +154,20 @@ double GaugeFaultFinder::MovedBy(const std::vector<Range>& all, int gauge,
   double most = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (static_cast<int>(k) == gauge) continue;
-    most = std::max(most, all[k].width() / std::max(noise_V_[k], step_V));
+    most = std::max(most, all[k].width() / std::max(laws_[k].noise_V, step_V));
   }
   return most;
 }
 
 std::optional<double> GaugeFaultFinder::StepOfGauge(int gauge) const {
-  return StepOf(gauges_[gauge].some_V, 0.5 * noise_V_[gauge]);
+  return StepOf(gauges_[gauge].some_V, 0.5 * laws_[gauge].noise_V);
 }
 
 std::optional<GaugeFault> GaugeFaultFinder::Still(int gauge,
                                                   double step_V) const {
   const Same& same = gauges_[gauge].longest;
   // A coarse gauge is still for many rows that hardly bend it.
-  const bool fine = step_V < noise_V_[gauge] ||
+  const bool fine = step_V < laws_[gauge].noise_V ||
                     all_[gauge].width() > 20 * step_V ||
                     all_[gauge].width() == 0;
   if (same.rows < kStillRows || !fine) return {};
@@ -186,14 +183,14 @@ std::optional<GaugeFault> GaugeFaultFinder::Still(int gauge,
 
 std::optional<GaugeFault> GaugeFaultFinder::StillInBlocks(int gauge) const {
   const auto still = [&](const std::vector<Range>& all, std::size_t rows) {
-    if (all[gauge].width() > kNoiseRange * noise_V_[gauge] ||
+    if (all[gauge].width() > kNoiseRange * laws_[gauge].noise_V ||
         2 * all[gauge].readings < rows) {
       return false;
     }
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (static_cast<int>(k) == gauge) continue;
       if (all[k].width() < 0.5 * all_[k].width() ||
-          all[k].width() < kMoves * noise_V_[k]) {
+          all[k].width() < kMoves * laws_[k].noise_V) {
         return false;
       }
     }
@@ -217,7 +214,7 @@ std::optional<GaugeFault> GaugeFaultFinder::StillInBlocks(int gauge) const {
       for (std::size_t j = 0; j < all.size(); ++j) {
         all[j].Add(blocks_[b].all[j]);
       }
-      if (all[gauge].width() > kNoiseRange * noise_V_[gauge]) break;
+      if (all[gauge].width() > kNoiseRange * laws_[gauge].noise_V) break;
       if (n > count && still(all, rows)) {
         first = from_end ? b : 0;
         count = n;
@@ -226,7 +223,7 @@ std::optional<GaugeFault> GaugeFaultFinder::StillInBlocks(int gauge) const {
   }
   if (count < static_cast<std::size_t>(kStillBlocks) ||
       count * rows_of_block_ < static_cast<std::size_t>(kStillRows) ||
-      all_[gauge].width() < 2 * kMoves * noise_V_[gauge]) {
+      all_[gauge].width() < 2 * kMoves * laws_[gauge].noise_V) {
     return {};
   }
   return GaugeFault{
@@ -238,8 +235,8 @@ std::optional<GaugeFault> GaugeFaultFinder::StillInBlocks(int gauge) const {
 
 std::optional<GaugeFault> GaugeFaultFinder::Clipped(int gauge,
                                                     double step_V) const {
-  if (all_[gauge].width() < kMoves * noise_V_[gauge] ||
-      step_V > kCoarseStep * noise_V_[gauge]) {
+  if (all_[gauge].width() < kMoves * laws_[gauge].noise_V ||
+      step_V > kCoarseStep * laws_[gauge].noise_V) {
     return {};
   }
   const Series& series = gauges_[gauge];
@@ -266,7 +263,7 @@ std::optional<GaugeFault> GaugeFaultFinder::AllStill() const {
   // Coarse gauges repeat themselves.
   for (int j = 0; words.empty() && j < static_cast<int>(gauges_.size()); ++j) {
     if (all_[j].width() > 0 &&
-        !StepOf(gauges_[j].some_V, kLeastStep * noise_V_[j])) {
+        !StepOf(gauges_[j].some_V, kLeastStep * laws_[j].noise_V)) {
       words = standstill_.FrozenWords();
     }
   }
@@ -285,12 +282,12 @@ std::vector<GaugeFault> GaugeFaultFinder::Faults() const {
     std::optional<GaugeFault> fault = Still(j, step.value_or(0));
     if (!fault) fault = StillInBlocks(j);
     if (!fault) fault = Clipped(j, step.value_or(0));
-    if (!fault && step && *step > kCoarseStep * noise_V_[j]) {
+    if (!fault && step && *step > kCoarseStep * laws_[j].noise_V) {
       fault = GaugeFault{
           GaugeFault::Kind::kCoarse, j, *step,
           GaugeWords(j) + FormatText(" has steps of %.3g mV, %.2g times its "
                                      "noise_V",
-                                     1e3 * *step, *step / noise_V_[j])};
+                                     1e3 * *step, *step / laws_[j].noise_V)};
     }
     if (fault) faults.push_back(std::move(*fault));
   }

@@ -8,6 +8,7 @@
 
 #include "finray/finger/finger.h"
 #include "finray/scene/gauge_standstill.h"
+#include "finray/scene/measurements.h"
 
 namespace finray {
 
@@ -53,11 +54,8 @@ class GaugeFaultFinder {
                           kNoiseRange = GaugeStandstill::kNoiseRange;
 
   explicit GaugeFaultFinder(const Finger& finger);
-  /// Takes the next row, which counts from 1; NaN where nothing was read.
-  /// The force is that of a sensor, or NaN.
-  /// Each reading is a mean of so many.
-  void Add(std::size_t row, const std::vector<double>& row_V, double force_N,
-           double readings);
+  /// Takes the next row, which counts from 1.
+  void Add(std::size_t row, const Measurements& readings);
   std::vector<GaugeFault> Faults() const;
 
  private:
@@ -108,7 +106,6 @@ class GaugeFaultFinder {
   GaugeStandstill standstill_;
   std::vector<Gauge> laws_;
   std::vector<double> measured_V_;  // of the last row, NaN where saturated
-  std::vector<double> noise_V_;
   std::vector<Series> gauges_;
   std::vector<Range> all_;
   std::vector<Block> blocks_;

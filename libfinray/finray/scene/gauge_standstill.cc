@@ -108,7 +108,7 @@ std::string GaugeStandstill::StillWords() const {
     words += FormatText(", while force_N varies by %.3g N",
                         most_force_N_ - least_force_N_);
   }
-  return words + ": dead, unplugged, or in another unit (V taken for mV?)";
+  return words + ": " + kCauses;
 }
 
 std::string GaugeStandstill::FrozenWords() const {

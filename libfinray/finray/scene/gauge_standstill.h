@@ -27,12 +27,14 @@ namespace finray {
 class GaugeStandstill {
  public:
   static constexpr std::size_t kStandRows = 20, kLongRows = 100, kLonger = 10;
+  static constexpr char kCauses[] =
+      "dead, unplugged, or in another unit (V taken for mV?)";
   static constexpr double kNoiseRange = 9, kNoNoise = 0.05, kTouch_N = 0.5,
                           kAway = 10;
 
   explicit GaugeStandstill(const Finger& finger);
-  /// Takes the next row, which counts from 1; NaN where nothing was read.
-  /// Each reading is a mean of so many.
+  /// Takes the next row, which counts from 1; NaN where nothing was read. Each
+  /// reading is a mean of `readings`.
   void Add(std::size_t row, const std::vector<double>& readings_V,
            double force_N, double readings);
   /// "gauges 1 to 4 do not move ...", or "" if one of them does.

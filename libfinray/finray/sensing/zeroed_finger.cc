@@ -141,8 +141,8 @@ void RefuseStill(const Finger& finger, const ZeroedFinger& zeroed,
       source + (count > 1 ? ": gauges " : ": gauge ") + gauges +
       (count > 1 ? " do" : " does") + " not move in " +
       std::to_string(zeroed.rows) +
-      " rows, not even by noise: dead, unplugged, or in another unit (V taken "
-      "for mV?); mend that, or state --allow_touch if its converter has steps "
+      " rows, not even by noise: " + GaugeStandstill::kCauses +
+      "; mend that, or state --allow_touch if its converter has steps "
       "above its noise, or its noise_V is too large");
 }
 

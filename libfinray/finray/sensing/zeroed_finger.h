@@ -71,7 +71,7 @@ Eigen::VectorXd FreeVolts(const Finger& finger,
                           const Discretization& discretization);
 constexpr std::size_t kLeastZeroRows = 3;
 constexpr std::size_t kFewZeroRows = 10;  ///< With fewer a caller warns.
-/// Of gauges that are let pass although they do not move, a caller warns.
+/// A caller warns of gauges that pass although they do not move.
 constexpr double kStill = GaugeStandstill::kNoNoise;
 constexpr double kNear = 3;
 constexpr double kTouchLeaves = 0.05;

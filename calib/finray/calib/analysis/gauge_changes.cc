@@ -304,8 +304,7 @@ std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
   for (const CalibrationFrame& frame : logs.frames) {
     if (frame.IsBench()) continue;
     const auto at = finders.try_emplace(frame.log, finger).first;
-    at->second.Add(static_cast<std::size_t>(frame.row) + 1, frame.gauges_V,
-                   frame.Force().magnitude_N, frame.gauge_readings);
+    at->second.Add(static_cast<std::size_t>(frame.row) + 1, frame);
   }
   std::map<int, std::vector<GaugeFault>> found;
   for (const auto& [log, finder] : finders) {

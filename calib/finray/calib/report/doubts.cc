@@ -125,10 +125,13 @@ std::string ChangeInWords(const CalibrationProblem& problem) {
     bool rejected;
   };
   std::map<int, std::vector<Row>> logs;
+  int all = 0;  // rejected rows
   for (const int i : problem.candidates()) {
     const CalibrationFrame& frame = problem.frame(i);
     if (!frame.contact) continue;
-    logs[frame.log].push_back({frame.row, problem.rejected().count(i) > 0});
+    const bool rejected = problem.rejected().count(i) > 0;
+    logs[frame.log].push_back({frame.row, rejected});
+    all += rejected;
   }
   for (auto& [log, rows] : logs) {
     std::sort(rows.begin(), rows.end(),
@@ -137,6 +140,7 @@ std::string ChangeInWords(const CalibrationProblem& problem) {
         rows.begin(), rows.end(), [](const Row& row) { return row.rejected; }));
     const auto fitted = static_cast<int>(rows.size()) - rejected;
     if (rejected < kLeastOfChange || fitted < kLeastOfChange) continue;
+    if (all - rejected > kMostExceptions * rejected) continue;
     int before = 0;  // rejected rows, less the fitted ones
     double fewest = kMostExceptions * std::min(rejected, fitted);
     std::string words;
