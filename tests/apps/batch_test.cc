@@ -26,14 +26,14 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   const Outcome outcome =
       Run("finray_estimate", Arguments("'%runs/*.csv'", "--out_dir %out"));
   ASSERT_EQ(outcome.code, 0) << outcome.output;
-  // The last three are warnings.
-  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 9);
+  // The last four are warnings.
+  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 10);
   EXPECT_THAT(outcome.output,
               HasSubstr("\nwarning: the finger is not calibrated"));
   EXPECT_THAT(
       outcome.output,
-      HasSubstr("\nwarning: likeliest cause: gauge 3 is stuck at 0.01 V "
-                "from row 1 to 300 while the others move, "));
+      HasSubstr("/a.csv (the worst of 2 logs) gauge 3 is stuck at 0.01 V "
+                "from row 1 to 300 while the others move"));
   EXPECT_THAT(
       outcome.output,
       HasSubstr("300 of 300 solved frames of " + folder_.Path("runs/a.csv") +
@@ -56,7 +56,7 @@ TEST_F(BatchTest, PatternsListsAndTables) {
                 .as<std::string>());
   EXPECT_EQ(yaml["warnings"][0]["code"].as<std::string>(), "not_calibrated");
   EXPECT_EQ(yaml["logs"][1]["warnings"][0]["code"].as<std::string>(),
-            "unexplained_frames");
+            "gauge_fault");
   // Readings of many mrad and no contact allowed.
   const int unexplained = yaml["all"]["unexplained_frames"].as<int>();
   EXPECT_EQ(unexplained, 500);

@@ -84,8 +84,7 @@ TEST(EstimationWarningsTest, ForcesThatTheLogContradicts) {
   EXPECT_TRUE(FailsStrict(warnings, {}));
 }
 
-// A finger that feels nothing, since its gauges are frozen.
-TEST(EstimationWarningsTest, AFaultThatNoFrameShows) {
+TEST(EstimationWarningsTest, AFaultOfGaugesWhateverFramesShow) {
   const Finger finger = CalibratedFinger();
   EstimationSummary summary;
   FrameEstimate free = Contact(0, 0);
@@ -94,12 +93,31 @@ TEST(EstimationWarningsTest, AFaultThatNoFrameShows) {
     summary.Add(free, 0, Row(finger, std::nan(""), 0), finger);
   }
   EXPECT_THAT(Of(summary, finger), IsEmpty());
-  const std::vector<Warning> warnings =
-      Of(summary, finger, {"all gauges read the same", "", "look"});
+  const LogCause frozen{"all gauges read the same", "", "look", true};
+  std::vector<Warning> warnings = Of(summary, finger, frozen);
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].code, "gauge_fault");
   EXPECT_EQ(warnings[0].text, "in a.csv all gauges read the same");
   EXPECT_TRUE(FailsStrict(warnings, OneContact()));
+
+  // Beside a few frames, which alone do not fail.
+  summary.frames = 1000;
+  summary.unexplained = 20;
+  EXPECT_FALSE(
+      FailsStrict(Of(summary, finger, {"slipped", "", ""}), OneContact()));
+  warnings = Of(summary, finger, frozen);
+  ASSERT_THAT(warnings, SizeIs(2));
+  EXPECT_EQ(warnings[1].code, "some_unexplained_frames");
+  EXPECT_EQ(warnings[1].text.find("20 of 1000"), 0u) << warnings[1].text;
+  EXPECT_TRUE(FailsStrict(warnings, OneContact()));
+
+  // In a log that another one surpasses.
+  EstimationSummary worse = summary;
+  worse.unexplained = 900;
+  const LogCause moved{"the gauges' offsets have moved", "", "zero"};
+  warnings = WarningsOf(
+      {{&worse, "a.csv", &moved}, {&summary, "b.csv", &frozen}}, finger);
+  EXPECT_EQ(warnings[0].text, "in b.csv all gauges read the same");
 }
 
 TEST(EstimationWarningsTest, FreeRowsThatReadTheirOffsets) {

@@ -52,7 +52,7 @@ TEST(BatchResults, VerdictsFollowTheLatestWarnings) {
   const Warning stiff =
       Of("forces_differ", "likeliest cause: it grows with the load, so");
   const Warning dead =
-      Of("unexplained_frames", "likeliest cause: gauge 2 is dead: it");
+      Of("gauge_fault", "in a.csv gauge 2 is dead from row 1 on");
   const Warning some = Of("some_unexplained_frames", "the offsets have moved");
   const std::string early = "2026-03-01", late = "2026-03-09";
   EXPECT_EQ(JudgedAs({}, {Log(late, {})}), Kind::kGood);

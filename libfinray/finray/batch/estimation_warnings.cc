@@ -25,8 +25,14 @@ std::string Measured(const EstimationSummary& summary, const Finger& finger) {
          " mV beside their offsets";
 }
 
-// "likeliest cause: ...; ", or "" if nobody has looked for it.
+bool IsFaulty(const LogSummary& log) {
+  return log.cause && log.cause->of_gauges;
+}
+
+// "likeliest cause: ...; ", or "" if nobody has looked for it, or if a
+// gauge_fault names it.
 std::string CauseOf(const LogSummary& log, const Finger& finger) {
+  if (IsFaulty(log)) return "";
   const std::string cause = "likeliest cause: ";
   if (log.cause && !log.cause->words.empty()) {
     return cause + log.cause->words + "; ";
@@ -86,14 +92,9 @@ Warning ForcesDiffer(const LogSummary& log, const Finger& finger,
           Remedy(log, finger)};
 }
 
-// A fault that shows by no frame, such as gauges that rest.
 Warning Faulty(const LogSummary& log, const std::string& name) {
   return {"gauge_fault", "in " + name + " " + log.cause->words,
           log.cause->remedy};
-}
-
-bool IsFaulty(const LogSummary& log) {
-  return log.cause && !log.cause->words.empty() && !NeedsCause(*log.summary);
 }
 
 Warning NeverFree(const LogSummary& log, const Finger& finger,

@@ -762,7 +762,8 @@ LogCause FindLogCause(const LogEvidence& evidence, const Finger& finger,
   const std::vector<GaugeFault> faults = evidence.Faults();
   LogCause cause;
   cause.words = WordsOf(faults, false);
-  if (!cause.words.empty()) {
+  cause.of_gauges = !cause.words.empty();
+  if (cause.of_gauges) {
     cause.remedy = faults[0].kind == GaugeFault::Kind::kAllStill
                        ? kAllStillRemedy
                        : "check its wiring, its range and its column; with its "

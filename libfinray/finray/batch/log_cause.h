@@ -19,7 +19,7 @@ namespace finray {
 /// with the log.
 class LogEvidence {
  public:
-  static constexpr std::size_t kMostRows = 512;
+  static constexpr std::size_t kMostRows = 256;
 
   LogEvidence(const Finger& finger, const Scene& scene);
   /// Takes the next row as it was read.
@@ -41,6 +41,7 @@ struct LogCause {
   std::string words;
   std::string details;  ///< How far, or where; may be empty.
   std::string remedy;
+  bool of_gauges = false;  ///< Gauges are dead, stuck, frozen or clipped.
 };
 
 /// Looks for the cause in this order, and without `needed` only for faults of

@@ -84,7 +84,7 @@ LogCause CauseFromYaml(const YamlMap& yaml) {
   if (!yaml.Has("cause")) return {};
   const YamlMap cause = yaml.Map("cause");
   return {cause.RawText("words"), cause.RawText("details"),
-          cause.RawText("remedy")};
+          cause.RawText("remedy"), cause.Has("of_gauges")};
 }
 
 LogSummary SummaryOf(const LogJob& job) {
@@ -358,6 +358,7 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
     yaml << YAML::Key << "cause" << YAML::Value << YAML::BeginMap;
     YamlPairs(&yaml, "words", cause_.words, "details", cause_.details, "remedy",
               cause_.remedy);
+    if (cause_.of_gauges) YamlPairs(&yaml, "of_gauges", true);
     yaml << YAML::EndMap;
   }
   yaml << YAML::EndMap;

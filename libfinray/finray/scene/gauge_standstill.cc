@@ -80,9 +80,10 @@ void GaugeStandstill::Add(std::size_t row,
 
 std::string GaugeStandstill::StillWords() const {
   if (rows_ < kStandRows) return "";
-  bool away = false, constant = true;
+  bool away = false, constant = true, all_read = true;
   for (std::size_t j = 0; j < series_.size(); ++j) {
     const Series& series = series_[j];
+    all_read &= series.changes > 0;
     if (series.changes == 0) continue;
     const Gauge& gauge = gauges_[j];
     const double range_V = series.high_V - series.low_V;
@@ -100,7 +101,8 @@ std::string GaugeStandstill::StillWords() const {
   const bool wrong = constant ? rows_ >= kLongRows : away;
   if (!touched && (read || !wrong)) return "";
   std::string words =
-      series_.size() == 1
+      !all_read ? "all gauges with readings do not move"
+      : series_.size() == 1
           ? "gauge 1 does not move"
           : "gauges 1 to " + std::to_string(series_.size()) + " do not move";
   words += " in " + std::to_string(rows_) + " rows, not even by their noise";

@@ -72,7 +72,8 @@ void LiveZero::MakeZeroed() {
     // The remedy behind the fault is for finray_zero.
     words = error.what();
     words = words.substr(0, words.find(';')) +
-            ". Try again once the finger is free and at rest.";
+            ". Try again once that is mended, with the finger free and at "
+            "rest.";
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
