@@ -36,6 +36,10 @@ TEST_F(BatchTest, PatternsListsAndTables) {
                 "from row 1 to 300 while the others move"));
   EXPECT_THAT(
       outcome.output,
+      HasSubstr("\nwarning: likeliest cause: gauge 3 is stuck at 0.01 V "
+                "from row 1 to 300 while the others move"));
+  EXPECT_THAT(
+      outcome.output,
       HasSubstr("300 of 300 solved frames of " + folder_.Path("runs/a.csv") +
                 " (the worst of 2 logs) are not explained"));
   EXPECT_THAT(outcome.output, HasSubstr("frames         500 in 2 logs, "));
@@ -70,6 +74,8 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   const Outcome again = Run("finray_estimate", in_place + " --resume");
   ASSERT_EQ(again.code, 0) << again.output;
   EXPECT_THAT(again.output, HasSubstr(", 500 kept"));
+  EXPECT_THAT(again.output,
+              HasSubstr("/a.csv (the worst of 2 logs) gauge 3 is stuck"));
   EXPECT_EQ(Files("runs"), files);
 
   EXPECT_EQ(

@@ -108,7 +108,8 @@ TEST(EstimationWarningsTest, AFaultOfGaugesWhateverFramesShow) {
   warnings = Of(summary, finger, frozen);
   ASSERT_THAT(warnings, SizeIs(2));
   EXPECT_EQ(warnings[1].code, "some_unexplained_frames");
-  EXPECT_EQ(warnings[1].text.find("20 of 1000"), 0u) << warnings[1].text;
+  EXPECT_THAT(warnings[1].text,
+              HasSubstr("likeliest cause: all gauges read the same; 20 of"));
   EXPECT_TRUE(FailsStrict(warnings, OneContact()));
 
   // In a log that another one surpasses.
@@ -118,6 +119,9 @@ TEST(EstimationWarningsTest, AFaultOfGaugesWhateverFramesShow) {
   warnings = WarningsOf(
       {{&worse, "a.csv", &moved}, {&summary, "b.csv", &frozen}}, finger);
   EXPECT_EQ(warnings[0].text, "in b.csv all gauges read the same");
+  EXPECT_THAT(
+      warnings[1].text,
+      HasSubstr("likeliest cause: the gauges' offsets have moved; 900"));
 }
 
 TEST(EstimationWarningsTest, FreeRowsThatReadTheirOffsets) {

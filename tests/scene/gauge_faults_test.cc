@@ -111,6 +111,10 @@ TEST(GaugeFaultsTest, AllGaugesThatDoNotMove) {
                     "gauges 1 to 3 do not move in 600 rows, not even by their "
                     "noise, while force_N varies by 3 N: dead")));
   }
+  EXPECT_THAT(FaultsOf([](std::size_t, std::vector<double>* volts) {
+                *volts = {0, std::nan(""), 0};
+              }),
+              ElementsAre(HasSubstr("gauges 1, 3 do not move in 600 rows")));
 }
 
 // A quiet finger rests on one step of coarse converters for most of a log.

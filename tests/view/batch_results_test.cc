@@ -52,7 +52,8 @@ TEST(BatchResults, VerdictsFollowTheLatestWarnings) {
   const Warning stiff =
       Of("forces_differ", "likeliest cause: it grows with the load, so");
   const Warning dead =
-      Of("gauge_fault", "in a.csv gauge 2 is dead from row 1 on");
+      Of("unexplained_frames", "likeliest cause: gauge 2 is dead: it");
+  const Warning frozen = Of("gauge_fault", "in a.csv all gauges read the same");
   const Warning some = Of("some_unexplained_frames", "the offsets have moved");
   const std::string early = "2026-03-01", late = "2026-03-09";
   EXPECT_EQ(JudgedAs({}, {Log(late, {})}), Kind::kGood);
@@ -68,6 +69,7 @@ TEST(BatchResults, VerdictsFollowTheLatestWarnings) {
             Kind::kCalibrate);
   EXPECT_EQ(JudgedAs({}, {Log(late, {stiff}), Log(late, {dead})}),
             Kind::kRepair);
+  EXPECT_EQ(JudgedAs({}, {Log(late, {stiff, frozen})}), Kind::kRepair);
   // The finger is as it was.
   const std::string sensor = "likeliest cause: the force sensor has an offset";
   EXPECT_EQ(

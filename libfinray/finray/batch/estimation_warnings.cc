@@ -29,10 +29,8 @@ bool IsFaulty(const LogSummary& log) {
   return log.cause && log.cause->of_gauges;
 }
 
-// "likeliest cause: ...; ", or "" if nobody has looked for it, or if a
-// gauge_fault names it.
+// "likeliest cause: ...; ", or "" if nobody has looked for it.
 std::string CauseOf(const LogSummary& log, const Finger& finger) {
-  if (IsFaulty(log)) return "";
   const std::string cause = "likeliest cause: ";
   if (log.cause && !log.cause->words.empty()) {
     return cause + log.cause->words + "; ";

@@ -31,8 +31,8 @@ std::vector<Warning> FrictionWarnings(const Finger& finger, const Scene& scene);
 
 /// Says what makes the estimates of logs doubtful, one warning a code. It names
 /// the worst log and counts the others:
-///  - gauge_fault: gauges are dead, stuck, frozen or clipped, and that is the
-///    cause of the next three;
+///  - gauge_fault: gauges are dead, stuck, frozen or clipped, whatever frames
+///    show;
 ///  - unexplained_frames: the finger and its noise do not explain too many
 ///    frames;
 ///  - some_unexplained_frames: not so many, but more than chance makes;

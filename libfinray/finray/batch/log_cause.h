@@ -19,7 +19,7 @@ namespace finray {
 /// with the log.
 class LogEvidence {
  public:
-  static constexpr std::size_t kMostRows = 256;
+  static constexpr std::size_t kMostRows = 512;
 
   LogEvidence(const Finger& finger, const Scene& scene);
   /// Takes the next row as it was read.

@@ -34,7 +34,7 @@ std::string WrittenText(const BatchSettings& settings) {
 
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 10\nversion " FINRAY_VERSION "\nlog " + log_sha256 +
+      "results 11\nversion " FINRAY_VERSION "\nlog " + log_sha256 +
       "\nfinger " + settings.finger_sha256 + "\nscene " +
       settings.scene_sha256 + "\nscheme " +
       SchemeName(settings.discretization.scheme) + "\nresolution " +

@@ -80,11 +80,13 @@ void GaugeStandstill::Add(std::size_t row,
 
 std::string GaugeStandstill::StillWords() const {
   if (rows_ < kStandRows) return "";
-  bool away = false, constant = true, all_read = true;
+  bool away = false, constant = true;
+  std::string list;
+  std::size_t read = 0;
   for (std::size_t j = 0; j < series_.size(); ++j) {
     const Series& series = series_[j];
-    all_read &= series.changes > 0;
     if (series.changes == 0) continue;
+    list += (read++ > 0 ? ", " : "") + std::to_string(j + 1);
     const Gauge& gauge = gauges_[j];
     const double range_V = series.high_V - series.low_V;
     const double noise_V = kNoNoise * gauge.noise_V;
@@ -96,15 +98,13 @@ std::string GaugeStandstill::StillWords() const {
     away |= std::abs(series.last_V - gauge.offset_V) > kAway * gauge.noise_V;
     constant &= range_V == 0;
   }
-  const bool read = most_force_N_ >= least_force_N_;
-  const bool touched = read && most_force_N_ - least_force_N_ > kTouch_N;
+  const bool any_force = most_force_N_ >= least_force_N_;
+  const bool touched = any_force && most_force_N_ - least_force_N_ > kTouch_N;
   const bool wrong = constant ? rows_ >= kLongRows : away;
-  if (!touched && (read || !wrong)) return "";
-  std::string words =
-      !all_read ? "all gauges with readings do not move"
-      : series_.size() == 1
-          ? "gauge 1 does not move"
-          : "gauges 1 to " + std::to_string(series_.size()) + " do not move";
+  if (!touched && (any_force || !wrong)) return "";
+  if (read > 1 && read == series_.size()) list = "1 to " + std::to_string(read);
+  std::string words = read == 1 ? "gauge " + list + " does not move"
+                                : "gauges " + list + " do not move";
   words += " in " + std::to_string(rows_) + " rows, not even by their noise";
   if (touched) {
     words += FormatText(", while force_N varies by %.3g N",

@@ -19,9 +19,8 @@ constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
 // start.
 constexpr double kTableFactor = 0.25;
 constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
-// Of a doubted pair only counts whether it explains the frame. After so many
-// starts that do not lead to a chi2 below kHopelessChi2 hardly any does: of
-// 11,000 readings of two contacts on four gauges, 8 needed more.
+// A doubted pair matters only if it explains the frame, which hardly any start
+// does after so many that leave chi2 hopeless.
 constexpr std::size_t kMostHopeless = 4;
 // Contacts that need more iterations from frame to frame have jumped.
 constexpr int kFollowIterations = 8;
@@ -193,6 +192,9 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
                                 double least_force_N) {
   const int dof = packed.all - 2 * contacts;
   const bool doubted = contacts == 2 && IsDoubted(packed);
+  const auto is_hopeless = [](double chi2) {
+    return chi2 > FrameProblem::kHopelessChi2;
+  };
   std::size_t fallbacks = 0, hopeless = 0;
   // A rival may be hidden by noise, and two contacts are followed from here.
   const double within = contacts == 2 ? kSuspect : kWithinNoise;
@@ -222,25 +224,20 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
       if (!on_surface_ || !found_.Knows(next.contacts[0], next.chi2)) {
         found_.Keep();
       }
-      if (IsEnough(packed, least_force_N)) break;
-      hopeless += next.chi2 > FrameProblem::kHopelessChi2;
-      if (doubted && hopeless >= kMostHopeless) break;
-      continue;
+    } else if (fallbacks < kMostFallbacks &&
+               (exact_fit_ || found_.empty() ||
+                !IsExplained(found_.least_chi2(), dof)) &&
+               !(doubted && is_hopeless(kTableFactor * start.chi2))) {
+      ++fallbacks;
+      if (!MayGoOn()) break;
+      if (FitByCeres(start, row)) found_.Keep();
+      if (!found_.empty() && is_hopeless(found_.least_chi2())) {
+        fallbacks = kMostFallbacks;
+      }
     }
-    if (doubted) {
-      if (++hopeless >= kMostHopeless) break;
-      // What the table predicts leaves Ceres no hope either.
-      if (kTableFactor * start.chi2 > FrameProblem::kHopelessChi2) continue;
-    }
-    const bool explained =
-        !found_.empty() && IsExplained(found_.least_chi2(), dof);
-    if ((explained && !exact_fit_) || fallbacks >= kMostFallbacks) continue;
-    ++fallbacks;
-    if (!MayGoOn()) break;
-    if (FitByCeres(start, row)) found_.Keep();
-    if (!found_.empty() && found_.least_chi2() > FrameProblem::kHopelessChi2) {
-      fallbacks = kMostFallbacks;
-    }
+    if (IsEnough(packed, least_force_N)) break;
+    hopeless += is_hopeless(found_.least_chi2());
+    if (doubted && hopeless >= kMostHopeless) break;
   }
   return ProfiledChi2(found_.least_chi2(), dof);
 }

@@ -57,7 +57,8 @@ class ContactSearch {
   }
   /// Searches with one or two contacts. Returns false if no start converged. A
   /// contact with less than `least_force_N` is none. If IsDoubted, the first
-  /// pair that explains the frame ends the search.
+  /// pair that explains the frame ends the search, or a few starts that leave
+  /// chi2 hopeless.
   bool Search(int contacts, const Measurements& row,
               const PackedReadings& packed, double least_force_N = 0);
   /// Says whether the gauges of a frame do not tell whether there are two
@@ -94,8 +95,8 @@ class ContactSearch {
   const ContactSolution* rival() const { return found_.rival(); }
   /// The best contact at each place of the table (GaugeTable::Profile) that may
   /// be a rival or belong to a valley; the others have an infinite chi2 or one
-  /// that is too large. Of two contacts, the places of ProfilePair. Empty
-  /// without gauges.
+  /// that is too large. Of two contacts, the places of ProfilePair, and none if
+  /// IsDoubted. Empty without gauges.
   const std::vector<ContactStart>& profile() const { return profile_; }
   /// Number of iterations of all fits of the last search.
   int iterations() const { return iterations_; }

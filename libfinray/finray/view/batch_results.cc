@@ -113,7 +113,10 @@ Kind KindOf(const Warning& warning) {
   }
   const std::vector<std::string> causes = CausesIn(warning.text);
   const std::string first = causes.empty() ? "" : causes.front();
-  if (Contains(first, "1000 times too small") ||
+  if (Contains(first, " is dead") || Contains(first, " is stuck at ") ||
+      Contains(first, " is clipped: ") || Contains(first, " not move in ") ||
+      Contains(first, "all gauges read the same") ||
+      Contains(first, "1000 times too small") ||
       Contains(first, " has the wrong sign") ||
       Contains(first, " are swapped")) {
     return Kind::kRepair;

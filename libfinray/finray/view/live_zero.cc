@@ -69,11 +69,11 @@ void LiveZero::MakeZeroed() {
     const std::lock_guard<std::mutex> lock(mutex_);
     zeroed_ = std::move(zeroed.finger);
   } catch (const std::exception& error) {
-    // The remedy behind the fault is for finray_zero.
+    // The remedy behind the fault is for finray_zero: it speaks of flags.
     words = error.what();
     words = words.substr(0, words.find(';')) +
-            ". Try again once that is mended, with the finger free and at "
-            "rest.";
+            ". Try again once the finger is free and at rest, and its gauges "
+            "show it.";
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
