@@ -153,7 +153,10 @@ int ExitCodeOf(const std::vector<Job>& jobs) {
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   const Discretization discretization = DiscretizationFlags();
-  if (FLAGS_draws < 0) throw InputError("--draws: expected 0 or more");
+  if (FLAGS_draws < 0 || FLAGS_draws > Experiment::kMostDraws) {
+    throw InputError("--draws: expected 0 to " +
+                     std::to_string(Experiment::kMostDraws));
+  }
   std::vector<Job> jobs = ReadJobs(finger);
   Required("out_dir", FLAGS_out_dir);
   if (FLAGS_dump_config) {

@@ -91,6 +91,10 @@ TEST_F(ControlAppTest, AStoppedRunFailsTheGate) {
 }
 
 TEST_F(ControlAppTest, BadInput) {
+  folder_.Write("e.yaml", kExperiment);
+  const Outcome draws = Run("finray_control", Arguments("--draws 1000000"));
+  EXPECT_EQ(draws.code, 2);
+  EXPECT_THAT(draws.output, HasSubstr("--draws: expected 0 to 10000"));
   folder_.Write("e.yaml", std::string(kExperiment) + "safty: {}\n");
   ExpectBadInput("finray_control", Arguments(""), "did you mean 'safety'?");
   folder_.Write("e.yaml", kExperiment);

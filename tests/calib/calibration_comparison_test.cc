@@ -189,6 +189,14 @@ TEST(ComparisonTest, RefusesWhatCannotBeCompared) {
   CalibrationFile none = first;
   for (auto& parameter : none.parameters) parameter.name += "_x";
   EXPECT_THROW(Compare(first, none, {}), InputError);
+  const std::string once =
+      "  - {name: x, unit: mm, value: 1, std: 1, status: estimated}\n";
+  folder.Write("a/calibration.yaml",
+               "schema_version: 1\nparameters:\n" + once + once);
+  EXPECT_THAT([&] { ReadCalibration(a); },
+              testing::ThrowsMessage<InputError>(
+                  testing::AllOf(testing::HasSubstr("calibration.yaml:4:"),
+                                 testing::HasSubstr("'x' is there twice"))));
   folder.Write("a/calibration.yaml", "schema_version: 1\nparameters: []\n");
   EXPECT_THROW(ReadCalibration(a), InputError);
 }

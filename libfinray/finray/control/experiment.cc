@@ -330,7 +330,10 @@ Experiment ReadExperiment(const std::string& path, const Finger& finger) {
   }
   ReadControllers(yaml, finger, &experiment);
   const YamlMap run = ReadMapping(yaml, "run", &experiment);
-  if (experiment.draws < 1) run.Fail("draws", "draws: expected 1 or more");
+  if (experiment.draws < 1 || experiment.draws > Experiment::kMostDraws) {
+    run.Fail("draws",
+             "draws: expected 1 to " + std::to_string(Experiment::kMostDraws));
+  }
   if (!(experiment.measure_from_s < experiment.duration_s)) {
     run.Fail("measure_from_s", "measure_from_s: expected less than duration_s");
   }

@@ -65,6 +65,7 @@ struct Experiment {
   double measure_from_s = 4;
   double settled_after_s = 1;  ///< after a step of the set-point
   int draws = 10;
+  static constexpr int kMostDraws = 10'000;  ///< an hour of CPU
 };
 
 /// Reads an experiment YAML (docs/reference/formats.md) for `finger`. Throws

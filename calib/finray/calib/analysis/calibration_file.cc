@@ -62,8 +62,12 @@ CalibrationFile ReadCalibration(const std::string& path) {
   for (const YamlMap& map : yaml.Maps("parameters")) {
     map.Choice("status",
                {"estimated", "prior_dominated", "unidentifiable", "fixed"});
-    file.parameters.push_back({map.RawText("name"), map.Text("unit"),
-                               map.Number("value"), StdOf(map)});
+    const std::string name = map.RawText("name");
+    if (file.Find(name) != nullptr) {
+      map.Fail("name", "'" + name + "' is there twice");
+    }
+    file.parameters.push_back(
+        {name, map.Text("unit"), map.Number("value"), StdOf(map)});
     names.push_back(file.parameters.back().name);
   }
   if (names.empty()) {
