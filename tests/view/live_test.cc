@@ -243,7 +243,7 @@ TEST_F(LiveZeroTest, AFingerThatMovesIsNotZeroed) {
   zero.Request();
   EXPECT_EQ(Run(&zero, 0.1), nullptr);
   EXPECT_THAT(zero.message(), HasSubstr("Not zeroed: gauge_1_V varies by"));
-  EXPECT_THAT(zero.message(), HasSubstr("Try again once the finger is free"));
+  EXPECT_THAT(zero.message(), HasSubstr("at rest, and its gauges show it."));
   EXPECT_EQ(zero.finger().gauges[0].offset_V, finger_.gauges[0].offset_V);
   EXPECT_THAT(zero.Request(), StartsWith("Zeroing"));  // once more
 }

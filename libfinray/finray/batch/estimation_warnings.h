@@ -59,7 +59,7 @@ std::vector<Warning> FrictionWarnings(const Finger& finger, const Scene& scene);
 std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
                                 const Finger& finger);
 
-/// Says whether one of these warnings depends on FindLogCause.
+/// Says whether one of these warnings but gauge_fault needs FindLogCause.
 bool NeedsCause(const EstimationSummary& summary);
 
 /// Says whether --strict fails with one of these warnings: gauge_fault,
