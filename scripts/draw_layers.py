@@ -30,6 +30,7 @@ ROWS = [
     [("view", "pages of results, the live page and its server")],
     [("batch", "many logs: jobs, streams, result rows, summaries")],
     [("sensing", "contacts from gauges: search, fit, status, uncertainty; sensing/fast: what exists for speed")],
+    [("fit", "the contact of one frame fitted to its blocks, linearised by contact and parameters")],
     [("residuals", "the heart: a frame's measurements as Ceres blocks, for sensing and calib alike")],
     [("scene", "what an experiment contains; measurements of a row, their reader; simulation")],
     [("objects", "outlines, clearance, tangency, contact of an object")],

@@ -10,7 +10,7 @@
 namespace finray {
 namespace {
 
-constexpr double kSmallDecrease = FrameLinearizer::kSmallDecrease;
+constexpr double kSmallDecrease = FrameFit::kSmallDecrease;
 
 const FrameLinearizer::StartState kUndeformed = [] { return LadderState(); };
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "finray/sensing/contact_covariance.h"
+#include "finray/fit/contact_covariance.h"
 #include "finray/sensing/fast/contact_fit.h"
 
 namespace finray {

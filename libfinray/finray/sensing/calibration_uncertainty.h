@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "finray/finger/known_friction.h"
-#include "finray/sensing/contact_covariance.h"
+#include "finray/fit/contact_covariance.h"
 #include "finray/sensing/sensitivity_table.h"
 
 namespace finray {

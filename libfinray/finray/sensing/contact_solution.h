@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "finray/sensing/contact_covariance.h"
+#include "finray/fit/contact_covariance.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

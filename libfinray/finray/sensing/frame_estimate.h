@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "finray/sensing/contact_covariance.h"
+#include "finray/fit/contact_covariance.h"
 #include "finray/sensing/valley.h"
 
 namespace finray {

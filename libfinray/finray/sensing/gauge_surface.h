@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "finray/sensing/contact_solution.h"
-#include "finray/sensing/fast/contact_step.h"
+#include "finray/fit/contact_step.h"
 #include "finray/statics/load_surface.h"
 
 namespace finray {

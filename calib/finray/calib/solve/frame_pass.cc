@@ -69,7 +69,7 @@ void MakeCells(const std::vector<int>& frames, const Contacts& contacts,
     if (!FrameLinearizer::FitsSurface(frame, problem.parameters())) continue;
     wanted.push_back(frame.contact
                          ? contacts[i]
-                         : FrameLinearizer::FreeContact(problem.finger()));
+                         : FrameFit::FreeContact(problem.finger()));
   }
   surface.MakeFor(wanted);
 }

@@ -9,7 +9,7 @@
 
 #include "finray/ladder/contact_pose.h"
 #include "finray/ladder/ladder_frame.h"
-#include "finray/sensing/fast/contact_step.h"
+#include "finray/fit/contact_step.h"
 
 namespace finray {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/sensing/fast/contact_step.h"
+#include "finray/fit/contact_step.h"
 
 namespace finray {
 

@@ -1,4 +1,4 @@
-#include "finray/sensing/contact_covariance.h"
+#include "finray/fit/contact_covariance.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "finray/sensing/fast/contact_step.h"
+#include "finray/fit/contact_step.h"
 
 #include <gtest/gtest.h>
 

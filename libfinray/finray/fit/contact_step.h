@@ -1,11 +1,10 @@
-#ifndef FINRAY_SENSING_FAST_CONTACT_STEP_H_
-#define FINRAY_SENSING_FAST_CONTACT_STEP_H_
+#ifndef FINRAY_FIT_CONTACT_STEP_H_
+#define FINRAY_FIT_CONTACT_STEP_H_
 
 #include <Eigen/Core>
 
 #include "finray/finger/mesh.h"
-#include "finray/ladder/ladder_frame.h"
-#include "finray/sensing/contact_covariance.h"
+#include "finray/fit/contact_covariance.h"
 
 namespace finray {
 
@@ -110,4 +109,4 @@ bool IsLastChange(double now, double before, double rate, bool crossed,
 
 }  // namespace finray
 
-#endif  // FINRAY_SENSING_FAST_CONTACT_STEP_H_
+#endif  // FINRAY_FIT_CONTACT_STEP_H_

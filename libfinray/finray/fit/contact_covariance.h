@@ -1,5 +1,5 @@
-#ifndef FINRAY_SENSING_CONTACT_COVARIANCE_H_
-#define FINRAY_SENSING_CONTACT_COVARIANCE_H_
+#ifndef FINRAY_FIT_CONTACT_COVARIANCE_H_
+#define FINRAY_FIT_CONTACT_COVARIANCE_H_
 
 #include <Eigen/Core>
 
@@ -18,4 +18,4 @@ ContactMatrix CovarianceOf(const ContactMatrix& information);
 
 }  // namespace finray
 
-#endif  // FINRAY_SENSING_CONTACT_COVARIANCE_H_
+#endif  // FINRAY_FIT_CONTACT_COVARIANCE_H_
