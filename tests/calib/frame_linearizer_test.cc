@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kSmallDecrease = FrameFit::kSmallDecrease;
 
-const FrameLinearizer::StartState kUndeformed = [] { return LadderState(); };
+const FrameLinearizer::StartState kUndeformed = [](double, double) {
+  return LadderState();
+};
 
 class FrameLinearizerTest : public testing::Test {
  protected:
@@ -155,7 +157,7 @@ TEST_F(FrameLinearizerTest, ASurfaceTellsTheSameAsTheEquilibria) {
       bool solved = false;
       ASSERT_TRUE(by_surface.FitContact(
           logs_.frames[frame], &other,
-          [&] {
+          [&](double, double) {
             solved = true;
             return LadderState();
           },

@@ -119,15 +119,5 @@ TEST(FrameSumResidualTest, ResidualBlockHasTheirCostAndDerivatives) {
   EXPECT_FALSE(block.Evaluate(parameters, residuals.data(), nullptr));
 }
 
-TEST(FrameSumResidualTest, PseudoInverse) {
-  Eigen::Matrix2d a;
-  a << 4, 1, 1, 3;
-  EXPECT_LT((PseudoInverse(a) - a.inverse()).norm(), 1e-14);
-  EXPECT_TRUE(PseudoInverse(Eigen::Matrix2d::Zero()).isZero(0));
-  const Eigen::Vector2d v(3, -2);
-  const Eigen::Matrix2d one = v * v.transpose();
-  EXPECT_LT((PseudoInverse(one) - one / (13.0 * 13)).norm(), 1e-12);
-}
-
 }  // namespace
 }  // namespace finray

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "finray/scene/clean_readings.h"
 #include "finray/scene/scene.h"
@@ -90,6 +91,11 @@ class FrameFitTest : public testing::Test {
   void ExpectAsCeres(const ModelSurface* surface) {
     FrameFit fit(EquilibriumSolver(finger_, {}),
                  {&shared(), {}, 0, surface, nullptr});
+    int solved = 0;
+    const auto start = [&](double, double) {
+      ++solved;
+      return LadderState();
+    };
     LinearizedFrame at;
     for (int i = 0; i < 12; ++i) {
       const double arc_mm = 25 + 8.5 * i, normal_N = 0.5 + 0.3 * i;
@@ -99,7 +105,8 @@ class FrameFitTest : public testing::Test {
       const double least = ByCeres(FrameOf(row, contact));
       double own[] = {arc_mm + (i % 2 == 0 ? 8 : -8), 1.4 * normal_N};
       ASSERT_TRUE(fit.Fit(
-          FrameOf(row, own), [] { return LadderState(); }, &at));
+          FrameOf(row, own), [](double, double) { return LadderState(); },
+          &at));
       EXPECT_NEAR(at.cost - at.move.decrease, least,
                   0.1 * FrameFit::kSmallDecrease);
       const Eigen::Vector2d off(own[0] + at.move.now[0] - contact[0],
@@ -107,6 +114,7 @@ class FrameFitTest : public testing::Test {
       // The minimum to 0.01 std.
       EXPECT_LT((at.by_contact * off).norm(), 0.01);
     }
+    EXPECT_EQ(solved, surface != nullptr ? 0 : 12);
   }
 
   std::mt19937_64 generator_{11};
@@ -136,9 +144,38 @@ TEST_F(FrameFitTest, KeepsTheBounds) {
   double contact[] = {70, 0.2};
   LinearizedFrame at;
   ASSERT_TRUE(fit.Fit(
-      FrameOf(row, contact), [] { return LadderState(); }, &at));
+      FrameOf(row, contact), [](double, double) { return LadderState(); },
+      &at));
   EXPECT_EQ(contact[1], 0);
   EXPECT_GT(at.cost, 100);
+}
+
+// Readings of a load at the tip that would lie beyond it, and a frame without a
+// contact: its own is left alone.
+TEST_F(FrameFitTest, StaysOnTheFinger) {
+  Measurements row = RowOf(finger_.front_length_mm, 1);
+  for (double& volts : row.gauges_V) volts *= 1.5;
+  row.gauges_V.back() *= 1.5;
+  FrameFit fit(EquilibriumSolver(finger_, {}),
+               {&shared(), {}, 0, nullptr, nullptr});
+  const auto start = [](double, double) { return LadderState(); };
+  double contact[] = {130, 1};
+  LinearizedFrame at;
+  ASSERT_TRUE(fit.Fit(FrameOf(row, contact), start, &at));
+  EXPECT_EQ(contact[0], finger_.front_length_mm);
+
+  const double nan = std::nan("");
+  double none[] = {nan, nan};
+  FrameEvaluation free(solver_.model(), EquilibriumForm::kReduced, 0, 0);
+  FrameFit::Frame frame{
+      MeasurementBlocks(row, MeasurementModel::OfScene(finger_, {}),
+                        parameters_.frame(), finger_.gauges, &free, none),
+      &free, none};
+  ASSERT_TRUE(fit.Fit(frame, start, &at));
+  EXPECT_TRUE(std::isnan(none[0]));
+  EXPECT_TRUE(at.by_contact.isZero(0));
+  EXPECT_TRUE(at.move.now.isZero(0));
+  EXPECT_TRUE(std::isfinite(at.cost));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ constexpr int kContact = -1, kNowhere = -2;
 
 bool FrameFit::Linearize(const Frame& frame, const StartState& start,
                          LinearizedFrame* out) {
-  Solves solves{start};
+  Solves solves{start, Eigen::Map<Eigen::Vector2d>(frame.contact)};
   if (!Evaluate(frame, true, &solves, out)) return false;
   out->Eliminate();
   return true;
@@ -30,7 +30,8 @@ bool FrameFit::Linearize(const Frame& frame, const StartState& start,
 
 bool FrameFit::Fit(const Frame& frame, const StartState& start,
                    LinearizedFrame* out) {
-  Solves solves{start};
+  Eigen::Map<Eigen::Vector2d> contact(frame.contact);
+  Solves solves{start, contact};
   if (!Evaluate(frame, settled_, &solves, out)) {
     out->rows.clear();
     return false;
@@ -40,8 +41,6 @@ bool FrameFit::Fit(const Frame& frame, const StartState& start,
   const Eigen::Vector2d unit(finger.front_length_mm, ForceUnit(finger));
   const bool touches =
       frame.evaluation != nullptr && frame.evaluation->contacts() > 0;
-  Eigen::Map<Eigen::Vector2d> contact(frame.contact);
-  Eigen::Vector2d best = contact;
   // The surface leaves the derivatives by the parameters to the last step.
   bool complete = settled_ || !solves.by_surface;
   settled_ = true;
@@ -52,7 +51,7 @@ bool FrameFit::Fit(const Frame& frame, const StartState& start,
     const ContactEquations equations{
         slopes.transpose() * slopes,
         slopes.transpose() * out->WeightedResiduals(), 2 * out->cost};
-    const ContactVector x = best.cwiseQuotient(unit);
+    const ContactVector x = solves.best.cwiseQuotient(unit);
     const ContactVector change = BoundedChange(
         equations, x, std::numeric_limits<double>::infinity(), damping);
     const double expected =
@@ -64,7 +63,7 @@ bool FrameFit::Fit(const Frame& frame, const StartState& start,
     settled_ = false;
     const bool all = expected < kNearlyThere;
     if (Evaluate(frame, all, &solves, &tried_) && tried_.cost < out->cost) {
-      best = contact;
+      solves.best = contact;
       solves.Stay(frame);
       std::swap(*out, tried_);
       complete = all || !solves.by_surface;
@@ -75,7 +74,7 @@ bool FrameFit::Fit(const Frame& frame, const StartState& start,
     damping = std::max(1e-3, 10 * damping);
     if (damping > kMostDamping) break;  // as good as rounding allows
   }
-  contact = best;
+  contact = solves.best;
   if (!complete && !Evaluate(frame, true, &solves, out)) {
     out->rows.clear();
     return false;
@@ -86,7 +85,7 @@ bool FrameFit::Fit(const Frame& frame, const StartState& start,
 
 bool FrameFit::Solve(const Frame& frame, Solves* solves) {
   if (!solves->near) {
-    solves->near = solves->start();
+    solves->near = solves->start(solves->best[0], solves->best[1]);
     // The solver drops the mesh that another frame has refined. Otherwise
     // results would depend on which thread had which frame. A state of the
     // table brings its mesh along.

@@ -3,6 +3,7 @@
 
 #include <ceres/loss_function.h>
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -41,22 +42,23 @@ class FrameFit {
     const ceres::LossFunction* loss = nullptr;  ///< rho; null for |r|^2
   };
 
-  /// A frame: its blocks, and the evaluation and the contact from which they
-  /// read. A row of the test bench has no evaluation.
+  /// A frame with one contact or none, in the reduced form: its blocks, and the
+  /// evaluation and the contact from which they read. A row of the test bench
+  /// has no evaluation.
   struct Frame {
     std::vector<FrameBlock> blocks;
     FrameEvaluation* evaluation = nullptr;
     double* contact = nullptr;  ///< (l_c, f_c)
   };
 
-  /// Makes the state that the first solve of a frame's equilibrium starts from;
-  /// an empty one for the undeformed finger. It is not called where the surface
-  /// gives all values.
-  using StartState = std::function<LadderState()>;
+  /// Makes the state that the first solve of a frame's equilibrium starts from,
+  /// near the contact where the fit has come to; an empty one for the
+  /// undeformed finger. It is not called where the surface gives all values.
+  using StartState = std::function<LadderState(double arc_mm, double normal_N)>;
 
-  /// `solver` is copied; its effects must be those of the parameters.
-  FrameFit(const EquilibriumSolver& solver, Shared shared)
-      : solver_(solver), shared_(std::move(shared)) {}
+  /// The effects of `solver` must be those of the parameters.
+  FrameFit(EquilibriumSolver solver, Shared shared)
+      : solver_(std::move(solver)), shared_(std::move(shared)) {}
 
   /// Wherever it is, a contact without force is the free finger.
   static std::array<double, 2> FreeContact(const Finger& finger) {
@@ -68,10 +70,11 @@ class FrameFit {
   bool Linearize(const Frame& frame, const StartState& start,
                  LinearizedFrame* out);
 
-  /// Moves the contact until a further step would lower chi2 / 2 by less than
-  /// kSmallDecrease, 0.04 std, and linearises the frame there.
-  /// LinearizedFrame::move says the rest of the way well enough. If the model
-  /// cannot be evaluated, it returns false and leaves `out` without rows.
+  /// Moves frame.contact until a further step would lower chi2 / 2 by less than
+  /// kSmallDecrease, 0.04 std, and linearises the frame there. Within the
+  /// bounds LinearizedFrame::move says the rest of the way well enough. If the
+  /// model cannot be evaluated, it returns false, and leaves `out` without rows
+  /// and the contact at the best one.
   static constexpr double kSmallDecrease = 1e-3;
   bool Fit(const Frame& frame, const StartState& start, LinearizedFrame* out);
 
@@ -82,6 +85,7 @@ class FrameFit {
   // one.
   struct Solves {
     const StartState& start;
+    Eigen::Vector2d best;  // contact
     std::optional<LadderState> near = {};
     LadderState reached = {};  // by the last solve
     bool by_surface = false;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "finray/sensing/contact_solution.h"
 #include "finray/fit/contact_step.h"
+#include "finray/sensing/contact_solution.h"
 #include "finray/statics/load_surface.h"
 
 namespace finray {

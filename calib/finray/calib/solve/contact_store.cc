@@ -61,8 +61,7 @@ void ContactStore::Move(int frame, const Eigen::Vector2d& by) {
   normal_N = std::max(0.0, normal_N + by[1]);
 }
 
-LadderState ContactStore::StateNear(int frame) const {
-  const auto [arc_mm, normal_N] = contacts_[frame];
+LadderState ContactStore::StateNear(double arc_mm, double normal_N) const {
   if (std::isnan(arc_mm)) return {};
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!guess_) NewGuess(false);

@@ -39,13 +39,12 @@ class ContactStore {
   /// Moves a contact within its bounds.
   void Move(int frame, const Eigen::Vector2d& by);
 
-  /// Returns a state of equilibrium near the contact of the frame, from the
-  /// table of the last guess, or else from one of the finger as it is at the
-  /// first call; during a pass the parameters stay. The state
-  /// is empty for a frame without contact. The table is small, so memory for
-  /// states does not grow with the number of frames. Threads may call it at the
-  /// same time.
-  LadderState StateNear(int frame) const;
+  /// Returns a state of equilibrium near a contact, from the table of the last
+  /// guess, or else from one of the finger as it is at the first call; during a
+  /// pass the parameters stay. The state is empty for a NaN place, that of a
+  /// frame without contact. The table is small, so memory for states does not
+  /// grow with the number of frames. Threads may call it at the same time.
+  LadderState StateNear(double arc_mm, double normal_N) const;
 
  private:
   Eigen::Vector2d Stiffness() const;

@@ -37,7 +37,9 @@ class FrameLinearizer {
                  LinearizedFrame* out);
 
   /// Moves the contact to where it explains the frame best with the present
-  /// parameters, and linearises the frame there: FrameFit::Fit.
+  /// parameters, and linearises the frame there: FrameFit::Fit. The next pass
+  /// starts behind LinearizedFrame::move. If the model cannot be evaluated, it
+  /// returns false and leaves `out` without rows.
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
                   const StartState& start, LinearizedFrame* out);
 
@@ -53,14 +55,14 @@ class FrameLinearizer {
   bool movable_gauges_;
   const CalibrationBlocks& blocks_;
   const CalibrationParameters& parameters_;
-  std::unique_ptr<ceres::LossFunction> loss_;
+  std::unique_ptr<ceres::LossFunction> loss_;  // of fit_, so before it
   FrameFit fit_;
   // Evaluations without and with a contact, for frames without pins and without
   // friction of their own; and that of another frame.
   std::array<std::optional<FrameEvaluation>, 2> usual_;
   std::optional<FrameEvaluation> unusual_;
   // In one place for all frames, so that their blocks have the same parameters.
-  std::array<double, 2> contact_;
+  std::array<double, 2> contact_{};
 };
 
 }  // namespace finray

@@ -67,11 +67,16 @@ void MakeCells(const std::vector<int>& frames, const Contacts& contacts,
   for (const int i : frames) {
     const CalibrationFrame& frame = problem.frame(i);
     if (!FrameLinearizer::FitsSurface(frame, problem.parameters())) continue;
-    wanted.push_back(frame.contact
-                         ? contacts[i]
-                         : FrameFit::FreeContact(problem.finger()));
+    wanted.push_back(frame.contact ? contacts[i]
+                                   : FrameFit::FreeContact(problem.finger()));
   }
   surface.MakeFor(wanted);
+}
+
+FrameFit::StartState StatesOf(const ContactStore& contacts) {
+  return [&contacts](double arc_mm, double normal_N) {
+    return contacts.StateNear(arc_mm, normal_N);
+  };
 }
 
 void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
@@ -146,9 +151,8 @@ void LinearizeFrames(const std::vector<int>& frames,
   VisitInOrder(
       frames, problem->plan(), contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
-        if (!linearizer->Linearize(
-                problem->frame(i), (*contacts)[i],
-                [&] { return contacts->StateNear(i); }, out)) {
+        if (!linearizer->Linearize(problem->frame(i), (*contacts)[i],
+                                   StatesOf(*contacts), out)) {
           throw std::runtime_error(
               "the model cannot be evaluated at the solution");
         }
@@ -162,9 +166,8 @@ void FitContacts(const std::vector<int>& frames, CalibrationProblem* problem,
   VisitInOrder(
       frames, problem->plan(), contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
-        linearizer->FitContact(
-            problem->frame(i), &(*contacts)[i],
-            [&] { return contacts->StateNear(i); }, out);
+        linearizer->FitContact(problem->frame(i), &(*contacts)[i],
+                               StatesOf(*contacts), out);
       },
       visit);
 }
@@ -181,9 +184,8 @@ void FitContactsRobustly(const std::vector<int>& frames,
       frames, robust, contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         std::array<double, 2> contact = (*contacts)[i];
-        linearizer->FitContact(
-            problem->frame(i), &contact, [&] { return contacts->StateNear(i); },
-            out);
+        linearizer->FitContact(problem->frame(i), &contact, StatesOf(*contacts),
+                               out);
       },
       visit);
 }

@@ -125,7 +125,8 @@ void JointProblem::AddFrame(int i) {
         frame.contact ? 1 : 0, problem_.parameters().friction(), unknowns,
         !frame.pins.empty(), problem_.plan().MovesGauges(),
         problem_.parameters().FrictionOf(frame));
-    const LadderState state = contacts_.StateNear(i);
+    const LadderState state =
+        contacts_.StateNear(contacts_[i][0], contacts_[i][1]);
     if (state.q.size() > 0) evaluation->set_state(state);
   }
   for (FrameBlock& block : problem_.blocks().Of(frame, evaluation, unknowns)) {

@@ -1,7 +1,6 @@
 #include "finray/calib/solve/linearization.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace finray {
 namespace {

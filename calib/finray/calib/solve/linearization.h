@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "finray/fit/linearized_frame.h"
+#include "finray/residuals/residual_family.h"
 
 namespace finray {
 

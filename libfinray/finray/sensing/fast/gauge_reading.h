@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "finray/fit/contact_step.h"
 #include "finray/ladder/contact_pose.h"
 #include "finray/ladder/ladder_frame.h"
-#include "finray/fit/contact_step.h"
 
 namespace finray {
 
