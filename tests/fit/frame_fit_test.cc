@@ -104,9 +104,7 @@ class FrameFitTest : public testing::Test {
       double contact[] = {arc_mm, normal_N};
       const double least = ByCeres(FrameOf(row, contact));
       double own[] = {arc_mm + (i % 2 == 0 ? 8 : -8), 1.4 * normal_N};
-      ASSERT_TRUE(fit.Fit(
-          FrameOf(row, own), [](double, double) { return LadderState(); },
-          &at));
+      ASSERT_TRUE(fit.Fit(FrameOf(row, own), start, &at));
       EXPECT_NEAR(at.cost - at.move.decrease, least,
                   0.1 * FrameFit::kSmallDecrease);
       const Eigen::Vector2d off(own[0] + at.move.now[0] - contact[0],
