@@ -7,8 +7,8 @@
 #include "calib/standard_log.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/report/calibration_result.h"
-#include "finray/sensing/calibration_uncertainty.h"
-#include "sensing/gauge_volts.h"
+#include "finray/fit/calibration_errors.h"
+#include "finray/scene/clean_readings.h"
 
 namespace finray {
 namespace {
@@ -145,10 +145,9 @@ TEST(FingerCovarianceTest, WithoutAForceSensorForcesAreUnknownPlacesAreNot) {
       "finger.yaml",
       FingerToYaml(CalibrateOn(Nominal(), plan, folder.Path("blind.csv")))));
   EquilibriumSolver solver(finger, {});
-  CalibrationUncertainty uncertainty(finger, 0, &solver);
+  CalibrationErrors errors(finger, Scene::OfGauges(0), {});
   ASSERT_TRUE(solver.Solve({{71, 3, 0}}));
-  const ContactMatrix found =
-      uncertainty.Of({{71, 3, 0}}, Volts(solver), Weights(finger));
+  const ContactMatrix found = errors.Of({{71, 3, 0}}, CleanReadings(solver));
   std::printf("without a force sensor: std %.3g mm, %.3g N of 3 N\n",
               std::sqrt(found(0, 0)), std::sqrt(found(1, 1)));
   EXPECT_LT(std::sqrt(found(0, 0)), 1);
@@ -183,17 +182,17 @@ void CheckMeans(unsigned calibrations, double tolerance) {
     Finger known = finger;
     known.calibration.reset();  // its std are those of noise alone
     FrameEstimator estimator(known, scene, {});
-    EquilibriumSolver solver(finger, {});
-    CalibrationUncertainty uncertainty(finger, 0, &solver);
+    // Six contacts are not worth a surface.
+    CalibrationErrors errors(finger, scene, {},
+                             CalibrationErrors::Surface::kNone);
     for (const double arc_mm : {25, 40, 55, 70, 85, 100}) {
       ASSERT_TRUE(truth.Solve({{arc_mm, kForce_N, 0}}));
-      const std::vector<double> clean = Volts(truth);
+      const Measurements clean = CleanReadings(truth);
       Eigen::Array2d mean(0, 0), noise(0, 0);
       for (int i = 0; i < kFrames; ++i) {
-        Measurements readings;
-        for (std::size_t j = 0; j < clean.size(); ++j) {
-          readings.gauges_V.push_back(clean[j] + finger.gauges[j].noise_V *
-                                                     normal(generator));
+        Measurements readings = clean;
+        for (std::size_t j = 0; j < readings.gauges_V.size(); ++j) {
+          readings.gauges_V[j] += finger.gauges[j].noise_V * normal(generator);
         }
         const ContactEstimate found = estimator.Estimate(readings).contact[0];
         mean += Eigen::Array2d(found.arc_mm, found.normal_N) / kFrames;
@@ -201,8 +200,7 @@ void CheckMeans(unsigned calibrations, double tolerance) {
         noise += Eigen::Array2d(found.arc_std_mm, found.normal_std_N).square() /
                  (kFrames * kFrames);
       }
-      const ContactMatrix system =
-          uncertainty.Of({{mean[0], mean[1], 0}}, clean, Weights(finger));
+      const ContactMatrix system = errors.Of({{mean[0], mean[1], 0}}, clean);
       const Eigen::Array2d error2 =
           (mean - Eigen::Array2d(arc_mm, kForce_N)).square();
       const Eigen::Array2d variance =

@@ -12,9 +12,8 @@ namespace {
 
 constexpr double kSmallDecrease = FrameFit::kSmallDecrease;
 
-const FrameLinearizer::StartState kUndeformed = [](double, double) {
-  return LadderState();
-};
+const FrameLinearizer::StartState kUndeformed =
+    [](const double*, LadderState* state) { *state = {}; };
 
 class FrameLinearizerTest : public testing::Test {
  protected:
@@ -143,7 +142,7 @@ TEST_F(FrameLinearizerTest, ASurfaceTellsTheSameAsTheEquilibria) {
     const int outputs = moves_gauges ? 10 : 7;  // with a tip and without
     const ModelSurface surface(solver, parameters.shared, parameters.friction(),
                                moves_gauges,
-                               Eigen::VectorXd::Constant(outputs, 1e-9));
+                               {Eigen::VectorXd::Constant(outputs, 1e-9)});
     FrameLinearizer plain(solver, plan_, &blocks, &parameters),
         by_surface(solver, plan_, &blocks, &parameters, &surface);
     for (const int frame : {0, 3, 7, 30, 41, 63}) {
@@ -157,9 +156,9 @@ TEST_F(FrameLinearizerTest, ASurfaceTellsTheSameAsTheEquilibria) {
       bool solved = false;
       ASSERT_TRUE(by_surface.FitContact(
           logs_.frames[frame], &other,
-          [&](double, double) {
+          [&](const double*, LadderState* state) {
             solved = true;
-            return LadderState();
+            *state = {};
           },
           &at_surface));
       EXPECT_FALSE(solved);

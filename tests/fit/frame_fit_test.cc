@@ -17,6 +17,10 @@ namespace {
 
 constexpr double kNoise_V = 3e-4;
 
+const FrameFit::StartState kUndeformed = [](const double*, LadderState* state) {
+  *state = {};
+};
+
 // The model at a point of Ceres'.
 class AtPoint : public ceres::EvaluationCallback {
  public:
@@ -49,30 +53,30 @@ class FrameFitTest : public testing::Test {
   }
 
   FrameFit::Frame FrameOf(const Measurements& row, double* contact) {
-    return {MeasurementBlocks(row, MeasurementModel::OfScene(finger_, {}),
-                              parameters_.frame(), finger_.gauges, &evaluation_,
-                              contact),
-            &evaluation_, contact};
+    blocks_ = MeasurementBlocks(row, MeasurementModel::OfScene(finger_, {}),
+                                parameters_.frame(), finger_.gauges,
+                                &evaluation_, contact);
+    return {&blocks_, &evaluation_, contact};
   }
 
   // Minimises the blocks by ceres::Solve. Returns the cost.
   double ByCeres(const FrameFit::Frame& frame) {
-    AtPoint at(shared(), frame.contact, &evaluation_, &solver_);
+    AtPoint at(shared(), frame.contacts, &evaluation_, &solver_);
     ceres::Problem::Options options;
     options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     options.evaluation_callback = &at;
     ceres::Problem problem(options);
-    for (const FrameBlock& block : frame.blocks) {
+    for (const FrameBlock& block : *frame.blocks) {
       problem.AddResidualBlock(block.cost.get(), nullptr, block.parameters);
     }
     std::vector<double*> all;
     problem.GetParameterBlocks(&all);
     for (double* block : all) {
-      if (block != frame.contact) problem.SetParameterBlockConstant(block);
+      if (block != frame.contacts) problem.SetParameterBlockConstant(block);
     }
-    problem.SetParameterLowerBound(frame.contact, 0, 0);
-    problem.SetParameterUpperBound(frame.contact, 0, finger_.front_length_mm);
-    problem.SetParameterLowerBound(frame.contact, 1, 0);
+    problem.SetParameterLowerBound(frame.contacts, 0, 0);
+    problem.SetParameterUpperBound(frame.contacts, 0, finger_.front_length_mm);
+    problem.SetParameterLowerBound(frame.contacts, 1, 0);
     ceres::Solver::Options solve;
     solve.linear_solver_type = ceres::DENSE_QR;
     solve.function_tolerance = solve.gradient_tolerance = 1e-14;
@@ -92,9 +96,9 @@ class FrameFitTest : public testing::Test {
     FrameFit fit(EquilibriumSolver(finger_, {}),
                  {&shared(), {}, 0, surface, nullptr});
     int solved = 0;
-    const auto start = [&](double, double) {
+    const auto start = [&](const double*, LadderState* state) {
       ++solved;
-      return LadderState();
+      *state = {};
     };
     LinearizedFrame at;
     for (int i = 0; i < 12; ++i) {
@@ -120,6 +124,7 @@ class FrameFitTest : public testing::Test {
   EquilibriumSolver solver_{finger_, {}};
   FingerParameters parameters_{finger_, std::nullopt};
   FrameEvaluation evaluation_{solver_.model(), EquilibriumForm::kReduced, 1, 0};
+  std::vector<FrameBlock> blocks_;
 };
 
 TEST_F(FrameFitTest, EndsWhereCeresDoes) { ExpectAsCeres(nullptr); }
@@ -127,7 +132,7 @@ TEST_F(FrameFitTest, EndsWhereCeresDoes) { ExpectAsCeres(nullptr); }
 TEST_F(FrameFitTest, EndsThereOnASurfaceToo) {
   Eigen::VectorXd resolution = Eigen::VectorXd::Constant(7, 1e-7);
   resolution.segment<2>(4).setConstant(1e-5);
-  const ModelSurface surface(solver_, shared(), 0, false, resolution);
+  const ModelSurface surface(solver_, shared(), 0, false, {resolution});
   ExpectAsCeres(&surface);
 }
 
@@ -141,9 +146,7 @@ TEST_F(FrameFitTest, KeepsTheBounds) {
                {&shared(), {}, 0, nullptr, nullptr});
   double contact[] = {70, 0.2};
   LinearizedFrame at;
-  ASSERT_TRUE(fit.Fit(
-      FrameOf(row, contact), [](double, double) { return LadderState(); },
-      &at));
+  ASSERT_TRUE(fit.Fit(FrameOf(row, contact), kUndeformed, &at));
   EXPECT_EQ(contact[1], 0);
   EXPECT_GT(at.cost, 100);
 }
@@ -156,20 +159,19 @@ TEST_F(FrameFitTest, StaysOnTheFinger) {
   row.gauges_V.back() *= 1.5;
   FrameFit fit(EquilibriumSolver(finger_, {}),
                {&shared(), {}, 0, nullptr, nullptr});
-  const auto start = [](double, double) { return LadderState(); };
   double contact[] = {130, 1};
   LinearizedFrame at;
-  ASSERT_TRUE(fit.Fit(FrameOf(row, contact), start, &at));
+  ASSERT_TRUE(fit.Fit(FrameOf(row, contact), kUndeformed, &at));
   EXPECT_EQ(contact[0], finger_.front_length_mm);
 
   const double nan = std::nan("");
   double none[] = {nan, nan};
   FrameEvaluation free(solver_.model(), EquilibriumForm::kReduced, 0, 0);
-  FrameFit::Frame frame{
+  const auto blocks =
       MeasurementBlocks(row, MeasurementModel::OfScene(finger_, {}),
-                        parameters_.frame(), finger_.gauges, &free, none),
-      &free, none};
-  ASSERT_TRUE(fit.Fit(frame, start, &at));
+                        parameters_.frame(), finger_.gauges, &free, none);
+  const FrameFit::Frame frame{&blocks, &free, none};
+  ASSERT_TRUE(fit.Fit(frame, kUndeformed, &at));
   EXPECT_TRUE(std::isnan(none[0]));
   EXPECT_TRUE(at.by_contact.isZero(0));
   EXPECT_TRUE(at.move.now.isZero(0));

@@ -54,8 +54,9 @@ INSTANTIATE_TEST_SUITE_P(Forms, EffectsTest,
 TEST_P(EffectsTest, AnalyticalVersusFiniteDifferences) {
   ASSERT_TRUE(frame_->valid());
   ASSERT_EQ(frame_->effects(), 6);
-  const double volts = 0.1;
-  const GaugeReadingResidual gauge(frame_, 1, &volts, 3e-4);
+  Measurements row;
+  row.gauges_V.assign(4, 0.1);
+  const GaugeReadingResidual gauge(frame_, 1, &row, 3e-4);
   CheckDerivatives(gauge, BlocksAnd({&gain_, &curvature_, offset_}), 1e-5);
   const ReferenceForceVectorResidual components(frame_, {3.9, 0.1}, 0.02);
   CheckDerivatives(components,
@@ -68,9 +69,10 @@ TEST_P(EffectsTest, AnalyticalVersusFiniteDifferences) {
       1e-6);
   // Pins move with their hinges.
   double origin[2] = {0, 0};
+  const Eigen::Vector2d at(3, 40);
   for (const auto& [rib, side] :
        {std::pair(2, Side::kFront), {1, Side::kBack}, {1, Side::kFront}}) {
-    const PointResidual pin(frame_, frame_->pin_row(rib, side), {3, 40}, 0.5);
+    const PointResidual pin(frame_, frame_->pin_row(rib, side), &at, 0.5);
     CheckDerivatives(pin, BlocksAnd({origin}), 1e-5);
   }
   if (GetParam() == EquilibriumForm::kReduced) return;

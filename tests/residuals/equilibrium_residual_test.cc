@@ -29,9 +29,10 @@ TEST_P(EquilibriumResidualTest, AnalyticalVersusFiniteDifferences) {
 TEST_P(EquilibriumResidualTest, WeightedAgreesWithReduced) {
   EquilibriumSolver solver(finger_, {});
   ASSERT_TRUE(solver.Solve({{82, 2.5, kFriction}}));
-  std::vector<double> volts, gains(4, 1.0), offsets(4, 0.0);
+  Measurements row;
+  std::vector<double> gains(4, 1.0), offsets(4, 0.0);
   for (int j = 0; j < 4; ++j) {
-    volts.push_back(solver.gauge_angle(j) + 1e-4 * (j - 1.5));
+    row.gauges_V.push_back(solver.gauge_angle(j) + 1e-4 * (j - 1.5));
   }
   double found[2][2];
   for (const EquilibriumForm form :
@@ -57,8 +58,8 @@ TEST_P(EquilibriumResidualTest, WeightedAgreesWithReduced) {
     for (int j = 0; j < 4; ++j) {
       std::vector<double*> all = blocks;
       all.insert(all.end(), {&gains[j], &linear, &offsets[j]});
-      problem.AddResidualBlock(
-          new GaugeReadingResidual(&frame, j, &volts[j], 3e-4), nullptr, all);
+      problem.AddResidualBlock(new GaugeReadingResidual(&frame, j, &row, 3e-4),
+                               nullptr, all);
     }
     if (weighted) {
       problem.AddResidualBlock(new EquilibriumResidual(&frame, finger_, 1e6),

@@ -8,35 +8,44 @@
 namespace finray {
 namespace {
 
-class GaugeReadingResidualTest : public ResidualsFixture {};
+class GaugeReadingResidualTest : public ResidualsFixture {
+ protected:
+  static Measurements Reading(double volts) {
+    Measurements row;
+    row.gauges_V.assign(4, volts);
+    return row;
+  }
+};
 INSTANTIATE_TEST_SUITE_P(Forms, GaugeReadingResidualTest,
                          testing::Values(EquilibriumForm::kReduced,
                                          EquilibriumForm::kWeighted),
                          FormName);
 
 TEST_P(GaugeReadingResidualTest, Nominal) {
-  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double gain = 1.7, curvature = 0.6, offset = 0.2;
+  Measurements row = Reading(0.31);
   std::vector<double*> blocks = Blocks();
   blocks.insert(blocks.end(), {&gain, &curvature, &offset});
   const std::unique_ptr<ceres::CostFunction> cost(
-      new GaugeReadingResidual(frame_, 2, &volts, 0.01));
+      new GaugeReadingResidual(frame_, 2, &row, 0.01));
   double residual;
   ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
   const double angle = frame_->outputs()[2];
   EXPECT_NEAR(residual,
               (1.7 * (angle + 0.6 * angle * angle) + 0.2 - 0.31) / 0.01, 1e-12);
-  volts = std::nan("");
+  row.gauges_V[2] = std::nan("");
   ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
   EXPECT_EQ(residual, 0);
 }
 
 TEST_P(GaugeReadingResidualTest, AnalyticalVersusFiniteDifferences) {
-  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double gain = 1.7, curvature = 0.6, offset = 0.2;
+  Measurements row = Reading(0.31);
   std::vector<double*> blocks = Blocks();
   blocks.insert(blocks.end(), {&gain, &curvature, &offset});
   for (int j = 0; j < 4; ++j) {
     const std::unique_ptr<ceres::CostFunction> cost(
-        new GaugeReadingResidual(frame_, j, &volts, 0.01));
+        new GaugeReadingResidual(frame_, j, &row, 0.01));
     CheckDerivatives(*cost, blocks, 1e-6);
   }
 }
@@ -44,13 +53,14 @@ TEST_P(GaugeReadingResidualTest, AnalyticalVersusFiniteDifferences) {
 // The terms are an offset, a drift rate after 0.4 h and a temperature
 // coefficient 7 degrees below the reference.
 TEST_P(GaugeReadingResidualTest, TermsBesideTheOffset) {
-  double gain = 1.7, curvature = 0, volts = 0.31, term[] = {0.2, -0.03, 0.004};
+  double gain = 1.7, curvature = 0, term[] = {0.2, -0.03, 0.004};
+  Measurements row = Reading(0.31);
   std::vector<double*> blocks = Blocks();
   blocks.push_back(&gain);
   blocks.push_back(&curvature);
   for (double& x : term) blocks.push_back(&x);
   const std::unique_ptr<ceres::CostFunction> cost(
-      new GaugeReadingResidual(frame_, 1, &volts, 0.01, {1, 0.4, -7}));
+      new GaugeReadingResidual(frame_, 1, &row, 0.01, {1, 0.4, -7}));
   double residual;
   ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
   EXPECT_NEAR(residual,
@@ -65,13 +75,14 @@ TEST_P(GaugeReadingResidualTest, Creep) {
   history.Set(0, 10, 0.25, 2);
   history.Set(2, 30, 0.5, 2);
   history.Set(3, 37, 0.31, 2);
-  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double gain = 1.7, curvature = 0.6, offset = 0.2;
   double share = 0.2, ln_time = std::log(12), drift = 0.01, hysteresis = 0;
+  Measurements row = Reading(0.31);
   std::vector<double*> blocks = Blocks();
   blocks.insert(blocks.end(), {&gain, &curvature, &share, &ln_time, &hysteresis,
                                &offset, &drift});
   const std::unique_ptr<ceres::CostFunction> cost(
-      new GaugeReadingResidual(frame_, 1, &volts, 0.01, {1, 0.4},
+      new GaugeReadingResidual(frame_, 1, &row, 0.01, {1, 0.4},
                                {&history, 3, &share, &ln_time, &hysteresis}));
   // The slope by the hysteresis bends at 0.
   CheckDerivatives(*cost, blocks, 3e-5);
@@ -86,7 +97,7 @@ TEST_P(GaugeReadingResidualTest, Creep) {
   ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
   EXPECT_NEAR(residual,
               (gauge.BendingVolts(frame_->outputs()[1]) + offset + 0.004 -
-               (volts - share * z)) /
+               (0.31 - share * z)) /
                   0.01,
               1e-9);
   share = -1;
@@ -102,20 +113,21 @@ TEST_P(GaugeReadingResidualTest, Hysteresis) {
   history.Set(1, 30, 0.5, 1e4);
   history.Set(2, 37, 0.31, 1e4);
   history.Set(3, 40, 0.309, 1e4);  // hardly
-  double gain = -1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double gain = -1.7, curvature = 0.6, offset = 0.2;
   double share = 0, ln_time = std::log(12), hysteresis = 4e-3;
+  Measurements row = Reading(0.31);
   std::vector<double*> blocks = Blocks();
   blocks.insert(blocks.end(),
                 {&gain, &curvature, &share, &ln_time, &hysteresis, &offset});
-  for (const int row : {2, 3}) {
+  for (const int at : {2, 3}) {
     const std::unique_ptr<ceres::CostFunction> cost(new GaugeReadingResidual(
-        frame_, 1, &volts, 0.01, {1},
-        {&history, row, &share, &ln_time, &hysteresis}));
+        frame_, 1, &row, 0.01, {1},
+        {&history, at, &share, &ln_time, &hysteresis}));
     share = 0.1;
     CheckDerivatives(*cost, blocks, 1e-5);
     share = 0;
     CheckDerivatives(*cost, blocks, 1e-5);
-    if (row == 3) continue;
+    if (at == 3) continue;
     Gauge gauge;
     gauge.gain_V_per_rad = gain;
     gauge.curvature_per_rad = curvature;
@@ -123,7 +135,7 @@ TEST_P(GaugeReadingResidualTest, Hysteresis) {
     ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
     EXPECT_NEAR(residual,
                 (gauge.BendingVolts(frame_->outputs()[1]) + offset -
-                 (volts - 1.7 * 4e-3)) /
+                 (0.31 - 1.7 * 4e-3)) /
                     0.01,
                 1e-6);
   }
@@ -135,12 +147,13 @@ TEST_P(GaugeReadingResidualTest, Hysteresis) {
 }
 
 TEST_P(GaugeReadingResidualTest, LessSensitiveWhenFlat) {
-  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double gain = 1.7, curvature = 0.6, offset = 0.2;
   double share = 0.3, ln_width = std::log(0.02);
+  Measurements row = Reading(0.31);
   std::vector<double*> blocks = Blocks();
   blocks.insert(blocks.end(), {&gain, &curvature, &share, &ln_width, &offset});
   const std::unique_ptr<ceres::CostFunction> cost(
-      new GaugeReadingResidual(frame_, 1, &volts, 0.01, {1}, {}, true));
+      new GaugeReadingResidual(frame_, 1, &row, 0.01, {1}, {}, true));
   CheckDerivatives(*cost, blocks, 1e-6);
   const double a = frame_->outputs()[1];
   double residual;
@@ -156,12 +169,13 @@ TEST_P(GaugeReadingResidualTest, MovedGauges) {
   FrameEvaluation& moved =
       frames_->Add(1, kFriction, unknowns_.data(), true, true);
   frames_->PrepareForEvaluation(true, true);
-  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double gain = 1.7, curvature = 0.6, offset = 0.2;
+  Measurements row = Reading(0.31);
   std::vector<double*> blocks = Blocks();
   blocks.insert(blocks.end(), {&gain, &curvature, &shared_.gauge_starts_mm[1],
                                &shared_.gauge_lengths_mm[1], &offset});
   const std::unique_ptr<ceres::CostFunction> cost(
-      new GaugeReadingResidual(&moved, 1, &volts, 0.01));
+      new GaugeReadingResidual(&moved, 1, &row, 0.01));
   CheckDerivatives(*cost, blocks, 1e-6);
   if (GetParam() == EquilibriumForm::kReduced) {
     Finger there = finger_;

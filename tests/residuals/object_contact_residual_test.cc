@@ -21,8 +21,9 @@ TEST_P(ObjectContactResidualTest, AnalyticalVersusFiniteDifferences) {
   for (double* own : {origin, &rotation_deg, &ln_scale, &radius_mm}) {
     blocks.push_back(own);
   }
+  const Eigen::Vector2d centre(-11.5, 66);
   const std::unique_ptr<ceres::CostFunction> cost(
-      new ObjectContactResidual(frame_, 0, {-11.5, 66}, 0.05));
+      new ObjectContactResidual(frame_, 0, &centre, 0.05));
   CheckDerivatives(*cost, blocks, 1e-6);
   const std::unique_ptr<ceres::CostFunction> location(
       new ContactLocationResidual(frame_, 0, 66, 0.3));
@@ -51,8 +52,9 @@ TEST_P(ObjectContactEquilibriumTest, VanishesWhereTheCircleTouches) {
   for (double* own : {origin, &rotation_deg, &ln_scale, &radius_mm}) {
     blocks.push_back(own);
   }
+  const Eigen::Vector2d centre(63, 14);
   const std::unique_ptr<ceres::CostFunction> cost(
-      new ObjectContactResidual(&frame, 0, {63, 14}, 1));
+      new ObjectContactResidual(&frame, 0, &centre, 1));
   ASSERT_TRUE(cost->Evaluate(blocks.data(), residuals, nullptr));
   EXPECT_LT(std::hypot(residuals[0], residuals[1]), 1e-9);
   radius_mm = -1;

@@ -29,15 +29,16 @@ INSTANTIATE_TEST_SUITE_P(Forms, PointResidualTest,
                          FormName);
 
 TEST_P(PointResidualTest, AnalyticalVersusFiniteDifferences) {
+  const Eigen::Vector2d at(3, 40), tip_at(3, 140);
   for (int rib = 0; rib < 5; ++rib) {
     for (const Side side : {Side::kFront, Side::kBack}) {
       const std::unique_ptr<ceres::CostFunction> pin(
-          new PointResidual(frame_, frame_->pin_row(rib, side), {3, 40}, 0.5));
+          new PointResidual(frame_, frame_->pin_row(rib, side), &at, 0.5));
       CheckDerivatives(*pin, blocks_, 1e-6);
     }
   }
   const std::unique_ptr<ceres::CostFunction> tip(
-      new PointResidual(frame_, frame_->tip_row(), {3, 140}, 0.5));
+      new PointResidual(frame_, frame_->tip_row(), &tip_at, 0.5));
   CheckDerivatives(*tip, blocks_, 1e-6);
 }
 
@@ -69,8 +70,9 @@ TEST_P(PointEquilibriumTest, PinsAreWhereTheShapeHasThem) {
       const Rib& hinge = finger_.ribs[rib];
       const Section at =
           shape.At(side, side == Side::kFront ? hinge.front_mm : hinge.back_mm);
-      const std::unique_ptr<ceres::CostFunction> pin(new PointResidual(
-          &frame, frame.pin_row(rib, side), {at.x_mm + 0.1, at.y_mm}, 0.5));
+      const Eigen::Vector2d seen(at.x_mm + 0.1, at.y_mm);
+      const std::unique_ptr<ceres::CostFunction> pin(
+          new PointResidual(&frame, frame.pin_row(rib, side), &seen, 0.5));
       ASSERT_TRUE(pin->Evaluate(blocks.data(), residuals, nullptr));
       EXPECT_NEAR(residuals[0], -0.2, 1e-8);
       EXPECT_NEAR(residuals[1], -0.1, 1e-8);

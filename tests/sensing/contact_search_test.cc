@@ -18,7 +18,7 @@ class ContactSearchTest : public testing::Test {
  protected:
   ContactSearchTest() : finger_(PaperFinger()), search_(finger_, {}, {}) {}
 
-  PackedReadings Packed(double arc_mm, double normal_N, double noise_std) {
+  Measurements RowOf(double arc_mm, double normal_N, double noise_std) {
     EXPECT_TRUE(solver_.Solve({{arc_mm, normal_N}}));
     Measurements row;
     for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
@@ -27,21 +27,25 @@ class ContactSearchTest : public testing::Test {
           gauge.Volts(solver_.outputs()[static_cast<Eigen::Index>(j)]) +
           noise_std * gauge.noise_V * normal_(generator_));
     }
-    PackedReadings packed;
-    Pack(finger_, {}, row, &packed);
-    return packed;
+    return row;
   }
 
-  std::vector<ContactSolution> FromAllNodes(const PackedReadings& packed) {
+  std::vector<ContactSolution> FromAllNodes(const Measurements& readings) {
+    RowFit fit(finger_, {}, {}, &search_.tables()->surface(),
+               search_.most_force_N());
+    fit.set_row(readings);
     std::vector<ContactSolution> found;
     for (const GaugeTable::Row& row : search_.table().rows()) {
       for (std::size_t k = 1; k < row.nodes.size(); ++k) {
-        ContactSolution fit;
-        if (search_.surface().Fit(packed.values, packed.weights,
-                                  search_.most_force_N(),
-                                  {row.arc_mm, row.nodes[k].normal_N}, &fit) &&
-            fit.contacts[0].normal_N > 1e-6) {
-          found.push_back(fit);
+        ContactStart start;
+        start.count = 1;
+        start.contacts[0] = {row.arc_mm, row.nodes[k].normal_N};
+        start.state = &row.nodes[k].state;
+        ContactSolution end;
+        if (fit.Fit(start, RowFit::Model::kSurface, 60, &end) &&
+            end.contacts[0].normal_N > 1e-6 &&
+            fit.evaluations() < RowFit::kMostEvaluations) {
+          found.push_back(end);
         }
       }
     }
@@ -65,12 +69,14 @@ TEST_F(ContactSearchTest, MissesNoMinimumThatExplainsTheFrame) {
   for (int trial = 0; trial < 150; ++trial) {
     // Noise that the finger does not declare, too.
     const double noise_std = trial % 10 == 0 ? 5 : 1;
-    const PackedReadings packed =
-        Packed(arc_mm(generator_), std::exp(log_force(generator_)), noise_std);
-    search_.Begin();
-    ASSERT_TRUE(search_.Search(1, {}, packed));
+    const Measurements row =
+        RowOf(arc_mm(generator_), std::exp(log_force(generator_)), noise_std);
+    PackedReadings packed;
+    Pack(finger_, {}, row, &packed);
+    search_.Begin(row);
+    ASSERT_TRUE(search_.Search(1, row, packed));
     const ContactSolution& best = search_.best();
-    for (const ContactSolution& other : FromAllNodes(packed)) {
+    for (const ContactSolution& other : FromAllNodes(row)) {
       // A minimum on a bound yields to others.
       if (IsOnBound(other)) continue;
       EXPECT_GE(other.chi2, best.chi2 - 1e-6);

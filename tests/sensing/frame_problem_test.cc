@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "finray/fit/calibration_errors.h"
 #include "finray/io/error.h"
 #include "finray/scene/clean_readings.h"
 #include "finray/sensing/frame_estimator.h"
@@ -127,8 +128,8 @@ TEST(FrameProblemTest, TheFastSolverEqualsTheWeightedBlocks) {
                       NoisyRows(finger, 300, {30, 100}, {1, 6}, false)));
 }
 
-// The covariance of a calibration, from the blocks and from the table.
-TEST(FrameProblemTest, CalibrationErrorsAsInTheTable) {
+// They are those of the contacts that a method finds, and these are the same.
+TEST(FrameProblemTest, EveryMethodHasTheErrorsOfTheCalibration) {
   Finger finger = PaperFinger();
   finger.gauges[1].curvature_per_rad = 0.8;
   finger.calibration = TypicalCovariance(finger);
@@ -138,16 +139,25 @@ TEST(FrameProblemTest, CalibrationErrorsAsInTheTable) {
   FrameEstimator fast(finger, scene, {});
   FrameEstimator reduced(finger, scene, {}, FrameMethod::kCeresReduced);
   FrameEstimator weighted(finger, scene, {}, FrameMethod::kCeresWeighted);
+  CalibrationErrors errors(finger, scene, {},
+                           CalibrationErrors::Surface::kNone);
   EquilibriumSolver solver(finger, {});
   for (const PointContact& contact :
        {PointContact{45, 2}, PointContact{70, 4}, PointContact{95, 1}}) {
     ASSERT_TRUE(solver.Solve({contact}));
     const Measurements row = CleanReadings(solver);
+    const Eigen::Matrix2d exact = errors.Of({contact}, row);
     const ContactEstimate a = fast.Estimate(row).contact[0];
-    for (FrameEstimator* other : {&reduced, &weighted}) {
-      const ContactEstimate b = other->Estimate(row).contact[0];
+    for (FrameEstimator* method : {&fast, &reduced, &weighted}) {
+      const FrameEstimate estimate = method->Estimate(row);
+      ASSERT_EQ(estimate.calibration_covariance.rows(), 2);
+      EXPECT_LT((estimate.calibration_covariance - exact).norm(),
+                2e-3 * exact.norm());
+      const ContactEstimate& b = estimate.contact[0];
       EXPECT_NEAR(b.arc_std_mm, a.arc_std_mm, 2e-3 * a.arc_std_mm);
       EXPECT_NEAR(b.normal_std_N, a.normal_std_N, 2e-3 * a.normal_std_N);
+      // Without friction, the whole force is the normal one.
+      EXPECT_NEAR(estimate.force_std_N, b.normal_std_N, 1e-6 * b.normal_std_N);
     }
   }
 }
@@ -172,10 +182,17 @@ TEST(FrameProblemTest, SmoothedFramesHaveTheirOwnCalibrationErrors) {
       .EstimateBlock(rows.data(), rows.size(), fast.data());
   FrameEstimator(finger, scene, {}, FrameMethod::kCeresReduced)
       .EstimateBlock(rows.data(), rows.size(), reduced.data());
+  scene.smoothing.reset();
+  FrameEstimator unsmoothed(finger, scene, {});
   for (std::size_t t = 0; t < rows.size(); ++t) {
-    const ContactEstimate &a = fast[t].contact[0], &b = reduced[t].contact[0];
-    EXPECT_NEAR(b.arc_std_mm, a.arc_std_mm, 5e-3 * a.arc_std_mm);
-    EXPECT_NEAR(b.normal_std_N, a.normal_std_N, 5e-3 * a.normal_std_N);
+    const ContactEstimate alone = unsmoothed.Estimate(rows[t]).contact[0];
+    for (const auto* block : {&fast, &reduced}) {
+      const ContactEstimate& of_block = (*block)[t].contact[0];
+      EXPECT_NEAR(of_block.arc_std_mm, alone.arc_std_mm,
+                  5e-3 * alone.arc_std_mm);
+      EXPECT_NEAR(of_block.normal_std_N, alone.normal_std_N,
+                  5e-3 * alone.normal_std_N);
+    }
   }
 }
 

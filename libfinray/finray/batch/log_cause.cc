@@ -11,10 +11,9 @@
 #include "finray/batch/batch_estimation.h"
 #include "finray/batch/estimation_summary.h"
 #include "finray/batch/estimation_warnings.h"
+#include "finray/fit/calibration_errors.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
-#include "finray/sensing/calibration_uncertainty.h"
-#include "finray/sensing/packed_readings.h"
 #include "finray/sensing/zeroed_finger.h"
 
 namespace finray {
@@ -187,15 +186,12 @@ class CauseSearch {
     all.parameters = parameters;
     all.std = unit;
     all.correlations = Eigen::MatrixXd::Identity(n, n);
-    const Eigen::MatrixXd back =
-        Eigen::MatrixXd(unit.asDiagonal()) * all.Factor().inverse();
     finger.calibration = all;
     const double friction = at.world.scene.friction_coefficient;
-    EquilibriumSolver solver(finger, discretization_);
-    CalibrationUncertainty derivatives(finger, friction, &solver, std::nullopt,
-                                       CalibrationUncertainty::Table::kNone);
+    CalibrationErrors derivatives(finger, Scene::OfGauges(friction),
+                                  discretization_,
+                                  CalibrationErrors::Surface::kNone);
     Step step{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
-    PackedReadings packed;
     for (std::size_t i = 0; i < at.estimates.size(); ++i) {
       const FrameEstimate& estimate = at.estimates[i];
       const Measurements& row = at.world.rows[i];
@@ -203,23 +199,21 @@ class CauseSearch {
           estimate.status == FrameStatus::kNotConverged) {
         continue;
       }
-      Pack(finger, at.world.scene, row, &packed);
       std::vector<PointContact> contacts;
       for (int c = 0; c < estimate.contacts; ++c) {
         contacts.push_back({estimate.contact[c].arc_mm,
                             estimate.contact[c].normal_N, friction});
       }
-      const Eigen::VectorXd weights = packed.weights.head(gauges_);
-      const auto errors = derivatives.ErrorsAt(contacts, row.gauges_V, weights);
-      if (!errors) continue;
-      const Eigen::VectorXd r = weights.cwiseProduct(errors->error);
-      Eigen::MatrixXd b =
-          weights.asDiagonal() * Eigen::MatrixXd(errors->by_factor * back);
+      const LinearizedFrame* const errors =
+          derivatives.Linearize(contacts, row);
+      if (errors == nullptr) continue;
+      const Eigen::VectorXd& r = errors->residuals;
+      Eigen::MatrixXd b = derivatives.ByParameter() * unit.asDiagonal();
       const double odd =
           std::sqrt(estimate.chi2 / std::max(1, estimate.dof)) / 3;
       const double weight = 1 / std::max(1.0, odd);
       if (!contacts.empty()) {
-        const Eigen::MatrixXd a = weights.asDiagonal() * errors->by_contact;
+        const Eigen::MatrixXd a = errors->by_contact;
         const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
         const Eigen::MatrixXd follow = qr.solve(b);  // -dx/dp
         AddForce(estimate, row, at.world, follow, weight, &step);
@@ -580,9 +574,8 @@ class CauseSearch {
     any.correlations = Eigen::MatrixXd::Identity(1, 1);
     finger.calibration = any;
     const double friction = trial.world.scene.friction_coefficient;
-    EquilibriumSolver solver(finger, discretization_);
-    CalibrationUncertainty model(finger, friction, &solver, std::nullopt,
-                                 CalibrationUncertainty::Table::kNone);
+    CalibrationErrors model(finger, Scene::OfGauges(friction), discretization_,
+                            CalibrationErrors::Surface::kNone);
     const auto residuals = [&](std::size_t i) -> Eigen::VectorXd {
       const FrameEstimate& estimate = trial.estimates[i];
       std::vector<PointContact> contacts;
@@ -590,15 +583,17 @@ class CauseSearch {
         contacts.push_back({estimate.contact[c].arc_mm,
                             estimate.contact[c].normal_N, friction});
       }
-      PackedReadings packed;
-      Pack(finger, trial.world.scene, trial.world.rows[i], &packed);
-      const Eigen::VectorXd weights = packed.weights.head(gauges_);
-      const auto errors =
+      Eigen::VectorXd of_gauges = Eigen::VectorXd::Zero(gauges_);
+      const LinearizedFrame* const errors =
           std::isfinite(estimate.chi2)
-              ? model.ErrorsAt(contacts, trial.world.rows[i].gauges_V, weights)
-              : std::nullopt;
-      return errors ? Eigen::VectorXd(weights.cwiseProduct(errors->error))
-                    : Eigen::VectorXd::Zero(gauges_);
+              ? model.Linearize(contacts, trial.world.rows[i])
+              : nullptr;
+      for (std::size_t k = 0; errors != nullptr && k < errors->rows.size();
+           ++k) {
+        of_gauges[errors->rows[k].gauge] =
+            errors->residuals[static_cast<Eigen::Index>(k)];
+      }
+      return of_gauges;
     };
     double across = 0, squares = 0;
     for (std::size_t i = 0; i + 1 < trial.estimates.size(); i += 2) {

@@ -1,12 +1,13 @@
 #include "finray/benchmark/benchmark_case.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 
 #include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"
-#include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/row_fit.h"
 
 namespace finray {
 namespace {
@@ -98,7 +99,8 @@ BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
 
   const Discretization finest = ReferenceDiscretization(finger);
   EquilibriumSolver solver(c.finger, finest);
-  ContactFit fit(c.finger, finest, MeasuredRadius(c.scene));
+  RowFit fit(c.finger, c.scene, finest, nullptr,
+             std::numeric_limits<double>::infinity());
   const bool fitted = !finger.gauges.empty() && c.scene.contacts.has_value();
   std::mt19937_64 generator(1);
   std::normal_distribution<double> normal;
@@ -140,13 +142,13 @@ BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
     }
     Pack(c.finger, c.scene, frame.readings, &frame.measurement);
     if (fitted) {
-      std::vector<PointContact> contacts = frame.contacts;
       EquilibriumSolver model(c.finger, finest);
-      if (!model.Solve(contacts)) Fail(c, k, model.Why().c_str());
-      fit.set_state(model.state());
-      if (!fit.Fit(frame.measurement.values, frame.measurement.weights,
-                   &contacts) ||
-          !model.Solve(contacts)) {
+      ContactSolution found;
+      fit.set_row(frame.readings);
+      const bool fits = fit.FitFrom(frame.contacts, &model, &found);
+      const std::vector<PointContact> contacts(
+          found.contacts.begin(), found.contacts.begin() + found.count);
+      if (!fits || !model.Solve(contacts)) {
         Fail(c, k, "the gauges' least squares are not found");
       }
       c.sensed.push_back(AnswerOf(model, contacts));

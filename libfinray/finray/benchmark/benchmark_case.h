@@ -37,7 +37,7 @@ struct BenchmarkFrame {
   std::vector<PointContact> contacts;  ///< The true ones.
   ObjectPose object;
   Measurements readings;       ///< With noise, in V.
-  PackedReadings measurement;  ///< The same, as ContactFit takes them.
+  PackedReadings measurement;  ///< The same, in rad and mm.
 };
 
 struct BenchmarkCase {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "finray/fit/contact_covariance.h"
-#include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/row_fit.h"
 
 namespace finray {
 
@@ -19,9 +19,10 @@ NoiseFloor NoiseFloorOf(const Finger& finger, const BenchmarkCase& c) {
   }
   if (!c.scene.contacts) return floor;
 
-  ContactFit fit(finger, {}, MeasuredRadius(c.scene));
+  RowFit fit(finger, c.scene, {}, nullptr,
+             std::numeric_limits<double>::infinity());
   EquilibriumSolver solver(finger, {});
-  PackedReadings exact;
+  ContactSolution found;
   double arc = 0, normal = 0;
   int contacts = 0;
   for (std::size_t k = 0; k < c.frames.size(); ++k) {
@@ -36,18 +37,12 @@ NoiseFloor NoiseFloorOf(const Finger& finger, const BenchmarkCase& c) {
         readings.object_mm[i] = frame.object.position_mm[i];
       }
     }
-    Pack(finger, c.scene, readings, &exact);
-    std::vector<PointContact> found = frame.contacts;
-    bool solved = solver.Solve(found);
-    if (solved) {
-      fit.set_state(solver.state());
-      solved = fit.Fit(exact.values, exact.weights, &found);
-    }
-    if (!solved) {
+    fit.set_row(readings);
+    if (!fit.FitFrom(frame.contacts, &solver, &found)) {
       throw std::runtime_error("noise floor: " + c.scene_name + ", frame " +
                                std::to_string(k) + " has no fit");
     }
-    const ContactMatrix covariance = CovarianceOf(fit.information());
+    const ContactMatrix covariance = CovarianceOf(found.information);
     for (Eigen::Index i = 0; i < covariance.rows(); i += 2) {
       arc += covariance(i, i);
       normal += covariance(i + 1, i + 1);

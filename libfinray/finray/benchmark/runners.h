@@ -9,11 +9,10 @@
 #include "finray/benchmark/setting.h"
 #include "finray/chain/forward.h"
 #include "finray/chain/sensing.h"
-#include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/frame_estimator.h"
 #include "finray/sensing/frame_problem.h"
-#include "finray/sensing/gauge_surface.h"
 #include "finray/sensing/gauge_table.h"
+#include "finray/sensing/row_fit.h"
 
 namespace finray {
 
@@ -81,50 +80,21 @@ class SensingRunner : public Runner {
   EquilibriumSolver model_;
 };
 
-/// Senses contacts frame by frame with ContactFit; each frame starts from the
-/// one before.
+/// Senses contacts frame by frame with RowFit; each frame starts from the one
+/// before. `surface`: one contact on a ModelSurface, whose cells are not timed.
 class FrameByFrame : public SensingRunner {
  public:
   FrameByFrame(const BenchmarkCase& c, const Discretization& discretization,
-               double tolerance)
-      : SensingRunner(c, discretization),
-        fit_(c.finger, discretization, MeasuredRadius(c.scene)) {
-    fit_.set_tolerance(tolerance);
-  }
-
-  int unknowns() const override {
-    return model_.unknowns() + 2 * static_cast<int>(contacts_.size());
-  }
-
- private:
-  void StartAt(int frame) override {
-    contacts_ = case_.frames[frame].contacts;
-    model_.Solve(contacts_);
-    fit_.set_state(model_.state());
-  }
-
-  void Solve(int frame, FrameAnswer* answer) override {
-    const PackedReadings& measured = case_.frames[frame].measurement;
-    answer->solved = fit_.Follow(measured.values, measured.weights, &contacts_);
-    answer->contacts = contacts_;
-    answer->tip_pose = fit_.tip_pose();
-    answer->iterations = fit_.iterations();
-    if (!answer->solved) StartAt(frame);
-  }
-
-  ContactFit fit_;
-  std::vector<PointContact> contacts_;
-};
-
-/// Senses one contact with GaugeSurface; each frame starts from the one before.
-class OnSurface : public SensingRunner {
- public:
-  OnSurface(const BenchmarkCase& c, const Discretization& discretization)
-      : SensingRunner(c, discretization),
-        most_force_N_(GaugeTable::HeaviestForce_N(c.finger)),
-        surface_(model_, c.scene.friction_coefficient, std::nullopt,
-                 most_force_N_) {
-    // Makes the cells of the surface, which are not timed.
+               bool surface)
+      : SensingRunner(c, discretization) {
+    const double most_N = GaugeTable::HeaviestForce_N(c.finger);
+    if (surface) {
+      surface_.emplace(
+          RowFit::SurfaceFor(c.finger, c.scene, discretization, most_N));
+    }
+    fit_.emplace(c.finger, c.scene, discretization,
+                 surface ? &*surface_ : nullptr, most_N);
+    if (!surface) return;
     for (std::size_t i = 0; i < c.frames.size(); ++i) {
       const int frame = static_cast<int>(i);
       StartAt(frame);
@@ -132,28 +102,37 @@ class OnSurface : public SensingRunner {
     }
   }
 
-  int unknowns() const override { return 2; }
+  int unknowns() const override {
+    return 2 * last_.count + (surface_ ? 0 : model_.unknowns());
+  }
 
  private:
   void StartAt(int frame) override {
-    last_ = case_.frames[frame].contacts.at(0);
+    const auto& contacts = case_.frames[frame].contacts;
+    model_.Solve(contacts);
+    last_.count = static_cast<int>(contacts.size());
+    std::copy(contacts.begin(), contacts.end(), last_.contacts.begin());
+    last_.state = model_.state();
   }
 
   void Solve(int frame, FrameAnswer* answer) override {
-    const PackedReadings& measured = case_.frames[frame].measurement;
-    answer->solved = surface_.Fit(measured.values, measured.weights,
-                                  most_force_N_, last_, &solution_);
+    const ContactStart start = {last_.count, last_.contacts, 0, &last_.state};
+    fit_->set_row(case_.frames[frame].readings);
+    answer->solved = fit_->Fit(
+        start, surface_ ? RowFit::Model::kSurface : RowFit::Model::kEquilibria,
+        RowFit::kMostEvaluations, &found_);
+    answer->iterations = fit_->evaluations();
     if (!answer->solved) return StartAt(frame);
-    last_ = solution_.contacts[0];
-    answer->contacts.assign(1, last_);
-    answer->tip_pose = solution_.tip_pose;
-    answer->iterations = 1;
+    answer->contacts.assign(found_.contacts.begin(),
+                            found_.contacts.begin() + found_.count);
+    answer->tip_pose = found_.tip_pose;
+    last_.contacts = found_.contacts;
+    if (!surface_) std::swap(last_.state, found_.state);
   }
 
-  double most_force_N_;
-  GaugeSurface surface_;
-  PointContact last_;
-  ContactSolution solution_;
+  std::optional<ModelSurface> surface_;
+  std::optional<RowFit> fit_;
+  ContactSolution last_, found_;
 };
 
 /// Senses contacts frame by frame with FrameProblem, that is with ceres::Solve

@@ -7,12 +7,8 @@
 namespace finray {
 namespace {
 
-// Equal to the tolerance of FrameFollower, so that settings differ in the
-// scheme alone.
-constexpr double kSensingTolerance = 1e-8;
 constexpr double kForwardTolerance = 1e-6;
 constexpr double kForwardRounding = 1e-14;
-constexpr double kSensingRounding = 1e-12;
 
 constexpr FrameBudget kFast = {16, 64}, kMedium = {16, 8}, kSlow = {16, 1},
                       kVerySlow = {4, 1};
@@ -116,16 +112,12 @@ class Grid {
     };
     for (const Ladder& ladder : ladders_) {
       add(ladder, "alone", ", one by one",
-          MakerOf<FrameByFrame>(ladder.discretization, kSensingTolerance));
-    }
-    for (const Ladder& ladder : {default_, check_}) {
-      add(ladder, "to_rounding", ", to rounding",
-          MakerOf<FrameByFrame>(ladder.discretization, kSensingRounding));
+          MakerOf<FrameByFrame>(ladder.discretization, false));
     }
     if (scene != "one_contact" && scene != "friction") return;
     for (const Ladder& ladder : series_) {
       add(ladder, "surface", ", on the load surface",
-          MakerOf<OnSurface>(ladder.discretization));
+          MakerOf<FrameByFrame>(ladder.discretization, true));
     }
     Ceres("sensing", scene, "reduced", "alone", kMedium,
           MakerOf<CeresFrames>(EquilibriumForm::kReduced));

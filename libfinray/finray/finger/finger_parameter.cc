@@ -246,6 +246,11 @@ Eigen::MatrixXd ParameterCovariance::Factor() const {
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
+Finger WithoutCalibration(Finger finger) {
+  finger.calibration.reset();
+  return finger;
+}
+
 Finger WithFrictionReversed(Finger finger) {
   if (!finger.calibration || !finger.calibration->HasFriction()) return finger;
   ParameterCovariance& covariance = *finger.calibration;

@@ -127,6 +127,8 @@ struct ParameterCovariance {
 /// Returns the finger for contacts whose friction pulls the other way: the
 /// friction in its covariance changes sign.
 Finger WithFrictionReversed(Finger finger);
+/// Returns the finger as if it were exactly known.
+Finger WithoutCalibration(Finger finger);
 
 /// Returns the covariance with its parameters in the order of ParametersOf.
 ParameterCovariance InOrderOf(const Finger& finger,

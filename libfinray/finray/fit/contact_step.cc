@@ -90,6 +90,39 @@ ContactEquations CurvedSums::Equations() const {
   return equations;
 }
 
+void UpdateCurvature(const ContactVector& step, const ContactVector& before,
+                     const ContactVector& mixed, const ContactVector& behind,
+                     ContactMatrix* curvature) {
+  constexpr int kMost = 2 * kFittedContacts;
+  const int n = static_cast<int>(step.size());
+  ContactMatrix& b = *curvature;
+  double known[kMost] = {}, change[kMost] = {}, off[kMost] = {};
+  double along = 0, told = 0, bent = 0;
+  for (int k = 0; k < n; ++k) {
+    for (int l = 0; l < n; ++l) known[k] += b(k, l) * step[l];
+    change[k] = behind[k] - before[k];
+    along += change[k] * step[k];
+    told += known[k] * step[k];
+    bent += (behind[k] - mixed[k]) * step[k];
+  }
+  if (!(along > 0)) return;
+  // What is known shrinks with the residuals.
+  const double size =
+      told == 0 ? 0 : std::min(1.0, std::abs(bent) / std::abs(told));
+  double missed = 0;
+  for (int k = 0; k < n; ++k) {
+    off[k] = behind[k] - mixed[k] - size * known[k];
+    missed += off[k] * step[k];
+  }
+  for (int k = 0; k < n; ++k) {
+    for (int l = 0; l < n; ++l) {
+      b(k, l) = size * b(k, l) +
+                (off[k] * change[l] + change[k] * off[l]) / along -
+                missed * change[k] * change[l] / (along * along);
+    }
+  }
+}
+
 // The primal active-set method for a convex quadratic in a box: goes towards
 // the least squares of the free components until the first of them meets its
 // bound, and lets a bound go that the gradient leaves.

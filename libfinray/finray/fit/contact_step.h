@@ -54,6 +54,15 @@ class CurvedSums {
   double chi2_ = 0, gradient_[2] = {}, normal_[3] = {}, curvature_[3] = {};
 };
 
+/// Updates B after a `step` from one linearisation to the next, by the secant
+/// method of Dennis, Gay and Welsch (NL2SOL, ACM TOMS 7, 1981): B takes the
+/// change of the slopes along the step, times the residuals behind it. `before`
+/// and `behind` are S' r at both, `mixed` has the slopes before the step and
+/// the residuals behind it. B begins with zero.
+void UpdateCurvature(const ContactVector& step, const ContactVector& before,
+                     const ContactVector& mixed, const ContactVector& behind,
+                     ContactMatrix* curvature);
+
 /// Solves for the change dx from x. A component that would pass a bound is set
 /// to the bound, and the others are solved again. `most_force` is in units of
 /// x, `damping` is Levenberg's.

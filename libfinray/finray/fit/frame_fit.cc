@@ -1,5 +1,6 @@
 #include "finray/fit/frame_fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,98 +11,239 @@
 namespace finray {
 namespace {
 
-constexpr int kMostSteps = 30;
 constexpr double kMostDamping = 1e8;
 // A step that lowers the cost by less is most often the last one, as the next
 // one lowers it by a thousandth of that.
 constexpr double kNearlyThere = 0.03;
-// Columns for a Jacobian that belongs to no parameter.
-constexpr int kContact = -1, kNowhere = -2;
+constexpr int kNowhere = -1;
+// A contact is on a bound if it is nearer, in l_0 or in the largest force.
+constexpr double kAtEnd = 1e-6;
+
+int ContactsOf(const FrameFit::Frame& frame) {
+  return frame.evaluation == nullptr ? 0 : frame.evaluation->contacts();
+}
+
+// S' r in these units, with the slopes of one linearisation and the residuals
+// of another.
+ContactVector GradientOf(const LinearizedFrame& slopes,
+                         const LinearizedFrame& residuals,
+                         const ContactVector& unit) {
+  ContactVector gradient = ContactVector::Zero(unit.size());
+  for (Eigen::Index i = 0; i < residuals.residuals.size(); ++i) {
+    const double off = residuals.weights[i] * residuals.residuals[i];
+    for (Eigen::Index k = 0; k < unit.size(); ++k) {
+      gradient[k] += off * slopes.by_contact(i, k);
+    }
+  }
+  gradient.array() *= unit.array();
+  return gradient;
+}
+
+// The equations for a step of the contacts in these units.
+ContactEquations EquationsOf(const LinearizedFrame& at,
+                             const ContactVector& unit) {
+  ContactEquations equations{at.Information(), GradientOf(at, at, unit),
+                             2 * at.cost};
+  equations.normal.array().colwise() *= unit.array();
+  equations.normal.array().rowwise() *= unit.transpose().array();
+  return equations;
+}
+
+// A step within the bounds, and by how much it lowers the cost.
+struct Step {
+  ContactVector change;
+  double decrease;
+};
+Step StepOf(const ContactEquations& equations, const ContactVector& x,
+            double most_force, double damping) {
+  const ContactVector change = BoundedChange(equations, x, most_force, damping);
+  ContactVector bent = equations.normal * change;
+  if (equations.curvature.size() > 0) bent += equations.curvature * change;
+  return {change, -equations.gradient.dot(change) - 0.5 * change.dot(bent)};
+}
+
+bool IsPositive(const ContactMatrix& matrix) {
+  return matrix.llt().info() == Eigen::Success;
+}
+
+// The next step, with `curvature` if the equations stay positive with it, and
+// whether it is the last one. A step that is small only because B is wrong is
+// not; B begins anew then.
+Step NextStep(ContactEquations equations, const ContactVector& x,
+              double most_force, double damping, const FrameFit::Ending& ending,
+              ContactMatrix* curvature, bool* last) {
+  const auto is_small = [&](const Step& step) {
+    return !(step.decrease > ending.small_decrease) &&
+           LargestChange(step.change, x, 0) < ending.small_change;
+  };
+  // Where the way there does not matter, a zero keeps the step from staying
+  // near, as it does where B is unknown.
+  if (ending.takes_last_step) {
+    equations.curvature.setZero(x.size(), x.size());
+  }
+  const Step straight = StepOf(equations, x, most_force, damping);
+  *last = is_small(straight);
+  if (curvature->isZero(0) || !IsPositive(equations.normal + *curvature)) {
+    return straight;
+  }
+  equations.curvature = *curvature;
+  const Step curved = StepOf(equations, x, most_force, damping);
+  if (*last || !is_small(curved)) return curved;
+  curvature->setZero();
+  return straight;
+}
+
+// A contact that is as good as on a bound is there.
+ContactVector OnBounds(ContactVector contacts, const ContactVector& unit,
+                       double most_force_N) {
+  for (int k = 0; k < contacts.size(); k += 2) {
+    if (contacts[k] < kAtEnd * unit[k]) contacts[k] = 0;
+    if (contacts[k] > (1 - kAtEnd) * unit[k]) contacts[k] = unit[k];
+    if (contacts[k + 1] > (1 - kAtEnd) * most_force_N) {
+      contacts[k + 1] = most_force_N;
+    }
+  }
+  return contacts;
+}
 
 }  // namespace
 
 bool FrameFit::Linearize(const Frame& frame, const StartState& start,
                          LinearizedFrame* out) {
-  Solves solves{start, Eigen::Map<Eigen::Vector2d>(frame.contact)};
-  if (!Evaluate(frame, true, &solves, out)) return false;
+  Begin(start);
+  return Evaluate(frame, true, out);
+}
+
+void FrameFit::Begin(const StartState& start) {
+  start_ = &start;
+  is_near_ = false;
+  evaluations_ = 0;
+}
+
+bool FrameFit::Fit(const Frame& frame, const StartState& start,
+                   LinearizedFrame* out, const Ending& ending) {
+  Begin(start);
+  const bool wants_all = !ending.takes_last_step;
+  bool complete = wants_all && settled_;
+  converged_ = false;
+  if (!Evaluate(frame, complete, out)) {
+    out->rows.clear();
+    return false;
+  }
+  Stay(frame);
+  // The surface leaves the derivatives by the parameters to the last step.
+  complete |= !by_surface_;
+  settled_ = true;
+  Descend(frame, ending, &complete, out);
+  if (!wants_all) return true;
+  if (!complete && !Evaluate(frame, true, out)) {
+    out->rows.clear();
+    return false;
+  }
   out->Eliminate();
   return true;
 }
 
-bool FrameFit::Fit(const Frame& frame, const StartState& start,
-                   LinearizedFrame* out) {
-  Eigen::Map<Eigen::Vector2d> contact(frame.contact);
-  Solves solves{start, contact};
-  if (!Evaluate(frame, settled_, &solves, out)) {
-    out->rows.clear();
-    return false;
-  }
-  solves.Stay(frame);
-  const Finger& finger = solver_.model().finger();
-  const Eigen::Vector2d unit(finger.front_length_mm, ForceUnit(finger));
-  const bool touches =
-      frame.evaluation != nullptr && frame.evaluation->contacts() > 0;
-  // The surface leaves the derivatives by the parameters to the last step.
-  bool complete = settled_ || !solves.by_surface;
-  settled_ = true;
+void FrameFit::Descend(const Frame& frame, const Ending& ending, bool* complete,
+                       LinearizedFrame* out) {
+  const int unknowns = 2 * ContactsOf(frame);
+  const bool wants_all = !ending.takes_last_step;
+  Eigen::Map<Eigen::VectorXd> contacts(frame.contacts, unknowns);
+  ContactVector best = contacts;
+  const ContactVector unit = UnitOf(unknowns);
+  const double most_force =
+      shared_.most_force_N / ForceUnit(solver_.model().finger());
+  ContactMatrix curvature = ContactMatrix::Zero(unknowns, unknowns);
   double damping = 0;
-  for (int step = 0; touches && step < kMostSteps; ++step) {
-    const Eigen::Matrix<double, Eigen::Dynamic, 2> slopes =
-        out->by_contact * unit.asDiagonal();
-    const ContactEquations equations{
-        slopes.transpose() * slopes,
-        slopes.transpose() * out->WeightedResiduals(), 2 * out->cost};
-    const ContactVector x = solves.best.cwiseQuotient(unit);
-    const ContactVector change = BoundedChange(
-        equations, x, std::numeric_limits<double>::infinity(), damping);
-    const double expected =
-        -equations.gradient.dot(change) -
-        0.5 * change.dot(ContactVector(equations.normal * change));
-    if (!(expected > kSmallDecrease)) break;
-    contact << std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
-        std::max(0.0, unit[1] * (x[1] + change[1]));
+  // The last trial was, and one since the last step had no values.
+  bool rejected = false, failed = false;
+  for (converged_ = unknowns == 0; !converged_;) {
+    const ContactVector x = best.cwiseQuotient(unit);
+    const ContactEquations equations = EquationsOf(*out, unit);
+    const Step step = NextStep(equations, x, most_force, damping, ending,
+                               &curvature, &converged_);
+    if (converged_ && wants_all) break;
+    for (int k = 0; k < unknowns; ++k) {
+      const bool arc = k % 2 == 0;
+      const double share = arc ? ArcShare(x[k + 1], step.change[k + 1]) : 1;
+      contacts[k] = std::clamp(unit[k] * (x[k] + share * step.change[k]), 0.0,
+                               arc ? unit[k] : shared_.most_force_N);
+    }
+    if (converged_) {
+      out->cost = std::max(0.0, out->cost - step.decrease);
+      best = contacts;
+      break;
+    }
+    // One is kept for the end if the last one was rejected.
+    if (evaluations_ + (rejected && !wants_all) >= ending.most_evaluations) {
+      converged_ = step.decrease < ending.creeping;
+      break;
+    }
     settled_ = false;
-    const bool all = expected < kNearlyThere;
-    if (Evaluate(frame, all, &solves, &tried_) && tried_.cost < out->cost) {
-      solves.best = contact;
-      solves.Stay(frame);
+    const bool all = wants_all && step.decrease < kNearlyThere;
+    const bool evaluated = Evaluate(frame, all, &tried_);
+    if (evaluated && tried_.cost < out->cost) {
+      UpdateCurvature((contacts - best).cwiseQuotient(unit), equations.gradient,
+                      GradientOf(*out, tried_, unit),
+                      GradientOf(tried_, tried_, unit), &curvature);
+      best = contacts;
+      Stay(frame);
       std::swap(*out, tried_);
-      complete = all || !solves.by_surface;
+      *complete = all || !by_surface_;
+      rejected = failed = false;
       damping /= 10;
       if (damping < 1e-6) damping = 0;
       continue;
     }
+    rejected = true;
+    failed |= !evaluated;
     damping = std::max(1e-3, 10 * damping);
-    if (damping > kMostDamping) break;  // as good as rounding allows
+    if (damping > kMostDamping) {
+      converged_ = !failed;  // as good as rounding allows
+      break;
+    }
   }
-  contact = solves.best;
-  if (!complete && !Evaluate(frame, true, &solves, out)) {
-    out->rows.clear();
-    return false;
+  contacts = best;
+  if (wants_all) return;
+  // The evaluation is that of the contacts or of a step before.
+  if (rejected && evaluations_ < ending.most_evaluations) {
+    Evaluate(frame, false, &tried_);
   }
-  out->Eliminate();
-  return true;
+  contacts = OnBounds(best, unit, shared_.most_force_N);
 }
 
-bool FrameFit::Solve(const Frame& frame, Solves* solves) {
-  if (!solves->near) {
-    solves->near = solves->start(solves->best[0], solves->best[1]);
+ContactVector FrameFit::UnitOf(int unknowns) const {
+  const Finger& finger = solver_.model().finger();
+  ContactVector unit(unknowns);
+  for (int k = 0; k < unknowns; ++k) {
+    unit[k] = k % 2 == 0 ? finger.front_length_mm : ForceUnit(finger);
+  }
+  return unit;
+}
+
+void FrameFit::Stay(const Frame& frame) {
+  if (frame.evaluation != nullptr && !by_surface_) std::swap(near_, reached_);
+}
+
+bool FrameFit::Solve(const Frame& frame) {
+  if (!is_near_) {
+    (*start_)(frame.contacts, &near_);
+    is_near_ = true;
     // The solver drops the mesh that another frame has refined. Otherwise
     // results would depend on which thread had which frame. A state of the
     // table brings its mesh along.
-    if (solves->near->q.size() == 0) solver_.Reset();
+    if (near_.q.size() == 0) solver_.Reset();
   }
   FrameEvaluation& evaluation = *frame.evaluation;
-  evaluation.set_state(solves->near->q.size() > 0
-                           ? *solves->near
-                           : LadderState::Undeformed(solver_.model()));
+  evaluation.set_state(
+      near_.q.size() > 0 ? near_ : LadderState::Undeformed(solver_.model()));
   const SharedParameters& at = *shared_.parameters;
   evaluation.PlaceGauges(at.gauge_starts_mm.data(), at.gauge_lengths_mm.data());
-  evaluation.Update(frame.contact, at.ln_front_stiffness, at.ln_back_stiffness,
+  evaluation.Update(frame.contacts, at.ln_front_stiffness, at.ln_back_stiffness,
                     at.rib_lengths_mm.data(), at.effect_values.data(),
                     &solver_);
   if (!evaluation.valid()) return false;
-  solves->reached = evaluation.state();
+  reached_ = evaluation.state();
   return true;
 }
 
@@ -111,84 +253,90 @@ bool FrameFit::TakeFromSurface(const Frame& frame, bool all) {
   const Finger& finger = solver_.model().finger();
   auto [arc_mm, normal_N] =
       evaluation.contacts() == 1
-          ? std::array<double, 2>{frame.contact[0], frame.contact[1]}
+          ? std::array<double, 2>{frame.contacts[0], frame.contacts[1]}
           : FreeContact(finger);
   arc_mm = std::clamp(arc_mm, 0.0, finger.front_length_mm);
   if (!shared_.surface->Evaluate(arc_mm, normal_N, all, &values_)) return false;
-  evaluation.Take(frame.contact, values_.outputs, values_.d_outputs,
+  evaluation.Take(frame.contacts, values_.outputs, values_.d_outputs,
                   values_.by_place);
   return true;
 }
 
-bool FrameFit::Evaluate(const Frame& frame, bool all, Solves* solves,
-                        LinearizedFrame* out) {
+bool FrameFit::Evaluate(const Frame& frame, bool all, LinearizedFrame* out) {
+  ++evaluations_;
+  by_surface_ = false;
   if (frame.evaluation != nullptr) {
-    solves->by_surface = TakeFromSurface(frame, all);
-    if (!solves->by_surface && !Solve(frame, solves)) return false;
+    by_surface_ = TakeFromSurface(frame, all);
+    if (!by_surface_ && (!shared_.solves || !Solve(frame))) return false;
   }
-  all |= !solves->by_surface;
+  all = shared_.columns > 0 && (all || !by_surface_);
   int rows = 0;
-  for (const FrameBlock& block : frame.blocks) {
+  for (const FrameBlock& block : *frame.blocks) {
     rows += block.cost->num_residuals();
   }
   out->rows.clear();
   out->residuals.resize(rows);
   out->weights.resize(rows);
-  if (all) {
+  if (all || shared_.columns == 0) {
     out->by_parameter.setZero(rows, shared_.columns);
   }
-  out->by_contact.setZero(rows, 2);
+  out->by_contact.setZero(rows, 2 * std::max(1, ContactsOf(frame)));
   out->cost = 0;
-  std::size_t index = 0;
-  for (const FrameBlock& block : frame.blocks) {
-    AddBlock(block, ColumnsOf(block, index++), frame.contact, all, out);
+  for (std::size_t i = 0; i < frame.blocks->size(); ++i) {
+    AddBlock((*frame.blocks)[i], all, &Known(frame, i), out);
   }
   return out->residuals.allFinite();
 }
 
 // Blocks of the frame before most often have the same parameters.
-const std::vector<int>& FrameFit::ColumnsOf(const FrameBlock& block,
-                                            std::size_t index) {
+FrameFit::KnownBlock& FrameFit::Known(const Frame& frame, std::size_t index) {
   if (known_.size() <= index) known_.resize(index + 1);
-  KnownColumns& known = known_[index];
-  if (known.parameters == block.parameters) return known.columns;
-  known.parameters = block.parameters;
+  KnownBlock& known = known_[index];
+  const std::vector<double*>& parameters = (*frame.blocks)[index].parameters;
+  if (known.parameters == parameters) return known;
+  known.parameters = parameters;
   known.columns.clear();
-  for (const double* parameter : block.parameters) {
-    const auto at = shared_.column_of.find(parameter);
+  known.contacts = kNowhere;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto at = shared_.column_of.find(parameters[k]);
     known.columns.push_back(at == shared_.column_of.end() ? kNowhere
                                                           : at->second);
+    if (parameters[k] == frame.contacts) known.contacts = static_cast<int>(k);
   }
-  return known.columns;
+  known.jacobians.assign(parameters.size(), nullptr);
+  known.scratch.resize(std::max(known.scratch.size(), parameters.size()));
+  return known;
 }
 
-void FrameFit::AddBlock(const FrameBlock& block,
-                        const std::vector<int>& columns, const double* contact,
-                        bool all, LinearizedFrame* out) {
+void FrameFit::AddBlock(const FrameBlock& block, bool all, KnownBlock* known,
+                        LinearizedFrame* out) {
   const int size = block.cost->num_residuals();
-  const int first_row = static_cast<int>(out->rows.size());
+  const auto first_row = static_cast<Eigen::Index>(out->rows.size());
   const auto& sizes = block.cost->parameter_block_sizes();
-  scratch_.resize(std::max(scratch_.size(), sizes.size()));
-  jacobians_.assign(sizes.size(), nullptr);
-  columns_.assign(sizes.size(), kNowhere);
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (block.parameters[k] == contact) {
-      columns_[k] = kContact;
-    } else if (all) {
-      columns_[k] = columns[k];
+    double*& jacobian = known->jacobians[k];
+    jacobian = nullptr;
+    if (static_cast<int>(k) == known->contacts) {
+      jacobian = &out->by_contact(first_row, 0);
+    } else if (all && known->columns[k] != kNowhere) {
+      known->scratch[k].resize(static_cast<std::size_t>(size * sizes[k]));
+      jacobian = size == 1 ? &out->by_parameter(first_row, known->columns[k])
+                           : known->scratch[k].data();
     }
-    if (columns_[k] == kNowhere) continue;
-    if (size == 1 && columns_[k] != kContact) {
-      jacobians_[k] = &out->by_parameter(first_row, columns_[k]);
+  }
+  if (!block.cost->Evaluate(block.parameters.data(),
+                            out->residuals.data() + first_row,
+                            known->jacobians.data())) {
+    out->residuals[first_row] = std::numeric_limits<double>::quiet_NaN();
+  }
+  for (std::size_t k = 0; all && size > 1 && k < sizes.size(); ++k) {
+    if (known->columns[k] == kNowhere || known->jacobians[k] == nullptr ||
+        static_cast<int>(k) == known->contacts) {
       continue;
     }
-    scratch_[k].resize(size * sizes[k]);
-    jacobians_[k] = scratch_[k].data();
-  }
-  double* residuals = out->residuals.data() + first_row;
-  if (!block.cost->Evaluate(block.parameters.data(), residuals,
-                            jacobians_.data())) {
-    out->residuals[first_row] = std::numeric_limits<double>::quiet_NaN();
+    out->by_parameter.block(first_row, known->columns[k], size, sizes[k]) =
+        Eigen::Map<const LinearizedFrame::Rows>(known->jacobians[k], size,
+                                                sizes[k]);
   }
   const double square = out->residuals.segment(first_row, size).squaredNorm();
   double weight = 1;
@@ -197,26 +345,14 @@ void FrameFit::AddBlock(const FrameBlock& block,
     shared_.loss->Evaluate(square, rho);
     weight = std::sqrt(rho[1]);
     out->cost += rho[0] / 2;
+    out->by_contact.middleRows(first_row, size) *= weight;
+    if (all) out->by_parameter.middleRows(first_row, size) *= weight;
   } else {
     out->cost += square / 2;
   }
   for (int i = 0; i < size; ++i) {
     out->rows.push_back({block.family, block.gauge, block.std_V});
     out->weights[first_row + i] = weight;
-  }
-  if (all && size == 1 && weight != 1) {
-    out->by_parameter.row(first_row) *= weight;
-  }
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (jacobians_[k] == nullptr) continue;
-    const Eigen::Map<const LinearizedFrame::Rows> jacobian(jacobians_[k], size,
-                                                           sizes[k]);
-    if (columns_[k] == kContact) {
-      out->by_contact.middleRows(first_row, size) = weight * jacobian;
-    } else if (size > 1) {
-      out->by_parameter.block(first_row, columns_[k], size, sizes[k]) =
-          weight * jacobian;
-    }
   }
 }
 

@@ -7,11 +7,12 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <optional>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "finray/fit/contact_step.h"
 #include "finray/fit/linearized_frame.h"
 #include "finray/residuals/frame_blocks.h"
 #include "finray/residuals/model_surface.h"
@@ -19,15 +20,16 @@
 
 namespace finray {
 
-/// Fits the contact of a frame to its residual blocks (frame_blocks.h), with
+/// Fits the contacts of a frame to its residual blocks (frame_blocks.h), with
 /// the parameters that the frames share as they are:
 ///
-///   min over (l_c, f_c) of sum_i rho(|r_i|^2) / 2,
-///   0 <= l_c <= l_0,  0 <= f_c,
+///   min over (l_c, f_c of each contact) of sum_i rho(|r_i|^2) / 2,
+///   0 <= l_c <= l_0,  0 <= f_c <= its bound,
 ///
 /// by Gauss and Newton with Levenberg's damping. It leaves the frame linearised
-/// by the contact and by the parameters, from which covariance, dx/dp and what
-/// a calibration eliminates follow (LinearizedFrame). Each thread has one.
+/// by the contacts and by the parameters, from which covariance, dx/dp and what
+/// a calibration eliminates follow (LinearizedFrame). A fit of frames with the
+/// same blocks allocates nothing once it has fitted one. Each thread has one.
 class FrameFit {
  public:
   /// What frames share. All that is pointed to must stay in place.
@@ -40,21 +42,23 @@ class FrameFit {
     /// The model at the present values, for frames that it serves; or null.
     const ModelSurface* surface = nullptr;
     const ceres::LossFunction* loss = nullptr;  ///< rho; null for |r|^2
+    double most_force_N = std::numeric_limits<double>::infinity();
+    bool solves = true;  ///< Equilibria, where the surface does not serve.
   };
 
-  /// A frame with one contact or none, in the reduced form: its blocks, and the
-  /// evaluation and the contact from which they read. A row of the test bench
-  /// has no evaluation.
+  /// A frame in the reduced form: its blocks, and the evaluation and the
+  /// contacts from which they read. A row of the test bench has no evaluation.
   struct Frame {
-    std::vector<FrameBlock> blocks;
+    const std::vector<FrameBlock>* blocks = nullptr;
     FrameEvaluation* evaluation = nullptr;
-    double* contact = nullptr;  ///< (l_c, f_c)
+    double* contacts = nullptr;  ///< (l_c, f_c) of each
   };
 
-  /// Makes the state that the first solve of a frame's equilibrium starts from,
-  /// near the contact where the fit has come to; an empty one for the
+  /// Gives the state that the first solve of a frame's equilibrium starts from,
+  /// near the contacts where the fit has come to; an empty one for the
   /// undeformed finger. It is not called where the surface gives all values.
-  using StartState = std::function<LadderState(double arc_mm, double normal_N)>;
+  using StartState =
+      std::function<void(const double* contacts, LadderState* state)>;
 
   /// The effects of `solver` must be those of the parameters.
   FrameFit(EquilibriumSolver solver, Shared shared)
@@ -65,59 +69,89 @@ class FrameFit {
     return {finger.front_length_mm / 2, 0};
   }
 
-  /// Linearises the frame with its contact where frame.contact says. A free
-  /// frame does not use it. Returns false if the model cannot be evaluated.
+  /// Linearises the frame with its contacts where they are, without
+  /// LinearizedFrame::Eliminate. A free frame does not use the contacts.
+  /// Returns false if the model cannot be evaluated.
   bool Linearize(const Frame& frame, const StartState& start,
                  LinearizedFrame* out);
 
-  /// Moves frame.contact until a further step would lower chi2 / 2 by less than
-  /// kSmallDecrease, 0.04 std, and linearises the frame there. Within the
-  /// bounds LinearizedFrame::move says the rest of the way well enough. If the
-  /// model cannot be evaluated, it returns false, and leaves `out` without rows
-  /// and the contact at the best one.
+  /// When a fit ends.
+  struct Ending {
+    /// A further step would lower the cost by less: 0.04 std by default.
+    double small_decrease = kSmallDecrease;
+    /// The step is smaller than this (LargestChange): where chi2 is flat, a far
+    /// one lowers it by nothing.
+    double small_change = std::numeric_limits<double>::infinity();
+    int most_evaluations = 31;
+    /// A fit that has used up its evaluations counts if the next step lowers
+    /// the cost by less: along a curved valley, where the data hardly determine
+    /// the contacts, steps do not end.
+    double creeping = 0;
+    /// The contacts take that step too. The frame stays linearised where it
+    /// begins, with the cost that is expected at its end, and without the
+    /// derivatives by the parameters. If false, LinearizedFrame::move says the
+    /// rest of the way well enough within the bounds.
+    bool takes_last_step = false;
+  };
   static constexpr double kSmallDecrease = 1e-3;
-  bool Fit(const Frame& frame, const StartState& start, LinearizedFrame* out);
 
+  /// Moves the contacts to where they explain the frame best, and linearises
+  /// the frame there. If the model cannot be evaluated, it returns false, and
+  /// leaves `out` without rows and the contacts at the best ones. converged()
+  /// says whether the fit has ended as `ending` says.
+  bool Fit(const Frame& frame, const StartState& start, LinearizedFrame* out,
+           const Ending& ending);
+  bool Fit(const Frame& frame, const StartState& start, LinearizedFrame* out) {
+    return Fit(frame, start, out, {});
+  }
+  bool converged() const { return converged_; }
+  /// Evaluations of the model by the last fit.
+  int evaluations() const { return evaluations_; }
+  /// The last evaluation needed no solve. Then error() says about how far its
+  /// outputs may be off, in units of the surface's resolution.
+  bool by_surface() const { return by_surface_; }
+  double error() const { return values_.error; }
+
+  EquilibriumSolver& solver() { return solver_; }
   const EquilibriumSolver& solver() const { return solver_; }
 
  private:
-  // Where the solves of a frame start, and whether the last evaluation needed
-  // one.
-  struct Solves {
-    const StartState& start;
-    Eigen::Vector2d best;  // contact
-    std::optional<LadderState> near = {};
-    LadderState reached = {};  // by the last solve
-    bool by_surface = false;
-
-    // The next solve starts where the last evaluation was.
-    void Stay(const Frame& frame) {
-      if (frame.evaluation != nullptr && !by_surface) std::swap(*near, reached);
-    }
+  // The parameters of a block and where their derivatives go.
+  struct KnownBlock {
+    std::vector<double*> parameters;
+    std::vector<int> columns;  // the first one, or kNowhere
+    int contacts;              // among the parameters; kNowhere if not there
+    std::vector<double*> jacobians;
+    std::vector<std::vector<double>> scratch;
   };
 
+  void Begin(const StartState& start);
+  // Moves the contacts from where the frame is linearised. `complete` says
+  // whether `out` has the derivatives by the parameters.
+  void Descend(const Frame& frame, const Ending& ending, bool* complete,
+               LinearizedFrame* out);
+  ContactVector UnitOf(int unknowns) const;  // mm and N
   // With `all` false, the derivatives by the parameters may be left undefined.
-  bool Evaluate(const Frame& frame, bool all, Solves* solves,
-                LinearizedFrame* out);
+  bool Evaluate(const Frame& frame, bool all, LinearizedFrame* out);
   bool TakeFromSurface(const Frame& frame, bool all);
-  bool Solve(const Frame& frame, Solves* solves);
-  // The first column of each parameter of the index-th block of a frame.
-  const std::vector<int>& ColumnsOf(const FrameBlock& block, std::size_t index);
-  void AddBlock(const FrameBlock& block, const std::vector<int>& columns,
-                const double* contact, bool all, LinearizedFrame* out);
+  bool Solve(const Frame& frame);
+  // The next solve starts where the last evaluation was.
+  void Stay(const Frame& frame);
+  KnownBlock& Known(const Frame& frame, std::size_t index);
+  void AddBlock(const FrameBlock& block, bool all, KnownBlock* known,
+                LinearizedFrame* out);
 
   EquilibriumSolver solver_;
   Shared shared_;
-  struct KnownColumns {
-    std::vector<double*> parameters;
-    std::vector<int> columns;
-  };
-  std::vector<KnownColumns> known_;  // by index of the block
-  // For each parameter of a residual block: its Jacobian, where that does not
-  // go straight to the rows, and its first column.
-  std::vector<std::vector<double>> scratch_;
-  std::vector<double*> jacobians_;
-  std::vector<int> columns_;
+  std::vector<KnownBlock> known_;  // by index of the block
+
+  // Of the fit under way: where solves start, and whether the last evaluation
+  // needed one.
+  const StartState* start_ = nullptr;
+  bool is_near_ = false, by_surface_ = false;
+  LadderState near_, reached_;
+  int evaluations_ = 0;
+  bool converged_ = false;
   // The last contact stayed where it was. If the next one does too, the
   // derivatives by the parameters are best computed at once. Results do not
   // depend on it.

@@ -1,8 +1,25 @@
 #include "finray/fit/linearized_frame.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace finray {
+namespace {
+
+// Smaller eigenvalues are rounding, as a share of the largest one.
+constexpr double kRounding = 1e-12;
+
+ContactMatrix PseudoInverseOf(const ContactMatrix& a) {
+  if (a.rows() == 2) return PseudoInverse(Eigen::Matrix2d(a));
+  const Eigen::SelfAdjointEigenSolver<ContactMatrix> solver(a);
+  const double least = kRounding * solver.eigenvalues().maxCoeff();
+  const auto inverse = solver.eigenvalues().unaryExpr(
+      [=](double value) { return value > least ? 1 / value : 0; });
+  return solver.eigenvectors() * inverse.asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
+}  // namespace
 
 Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& a) {
   // The eigenvalues of [p, q; q, s] have a closed form.
@@ -13,7 +30,7 @@ Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& a) {
   if (!(large > 0)) return Eigen::Matrix2d::Zero();
   // This form avoids the cancellation of mean - radius.
   const double small = (a(0, 0) * a(1, 1) - q * q) / large;
-  if (small > 1e-12 * large) {
+  if (small > kRounding * large) {
     Eigen::Matrix2d inverse;
     inverse << a(1, 1), -q, -q, a(0, 0);
     return inverse / (small * large);
@@ -31,15 +48,21 @@ Eigen::MatrixXd EliminateContact(
   return c - e * (PseudoInverse(information) * (e.transpose() * c));
 }
 
-void LinearizedFrame::Eliminate() {
-  const Eigen::Matrix2d inverse =
-      PseudoInverse(by_contact.transpose() * by_contact);
-  const Eigen::Vector2d pull = by_contact.transpose() * WeightedResiduals();
-  move.now = -inverse * pull;
+ContactMatrix LinearizedFrame::Information() const {
+  return by_contact.transpose().lazyProduct(by_contact);
+}
+
+void LinearizedFrame::Eliminate() { Eliminate(PseudoInverseOf(Information())); }
+
+void LinearizedFrame::Eliminate(const ContactMatrix& inverse) {
   // Products of two rows or columns take longer to prepare than to make.
-  move.by_parameter.noalias() =
-      (-inverse * by_contact.transpose()).eval().lazyProduct(by_parameter);
-  move.decrease = -0.5 * pull.dot(move.now);
+  scaled_.noalias() = by_contact.lazyProduct(-inverse);
+  move.now.setZero(scaled_.cols());
+  for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+    move.now += weights[i] * residuals[i] * scaled_.row(i).transpose();
+  }
+  move.by_parameter.noalias() = scaled_.transpose().lazyProduct(by_parameter);
+  move.decrease = 0.5 * move.now.dot(Information().lazyProduct(move.now));
   reduced = by_parameter;
   reduced.noalias() += by_contact.lazyProduct(move.by_parameter);
 }

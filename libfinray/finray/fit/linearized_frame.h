@@ -4,11 +4,12 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "finray/fit/contact_covariance.h"
 #include "finray/residuals/residual_family.h"
 
 namespace finray {
 
-/// The measurements of one frame at the present parameters and contact, and
+/// The measurements of one frame at the present parameters and contacts, and
 /// their derivatives: the rows of the frame in [C | E]. They are in units of
 /// their std. The robust loss weights them by
 ///
@@ -23,36 +24,49 @@ struct LinearizedFrame {
   };
   using Rows =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  /// Rows by (l_c, f_c) of each contact.
+  using ContactRows =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                    Eigen::Dynamic, 2 * kFittedContacts>;
   std::vector<Row> rows;
   Eigen::VectorXd residuals;  ///< r, without weights.
   Eigen::VectorXd weights;    ///< w.
   Rows by_parameter;          ///< C, rows x free parameters, weighted.
-  /// E, rows x (l_c, f_c), weighted. It is zero for a free frame.
-  Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;
+  /// E, rows x (l_c, f_c of each contact), weighted. A free frame has the two
+  /// columns of one contact, which are zero.
+  ContactRows by_contact;
   double cost = 0;  ///< The sum of rho / 2.
 
-  Eigen::VectorXd WeightedResiduals() const {
-    return weights.cwiseProduct(residuals);
-  }
-  /// The contact should move by A + B dx when the parameters move by dx:
+  /// An expression of the members: keep it in a vector.
+  auto WeightedResiduals() const { return weights.cwiseProduct(residuals); }
+  /// E'E, the Fisher information of the contacts where nothing else is unknown.
+  ContactMatrix Information() const;
+  /// The contacts should move by A + B dx when the parameters move by dx:
   /// (A | B) = -(E'E)^-1 E'(r | C).
   struct ContactMove {
-    Eigen::Vector2d now = Eigen::Vector2d::Zero();
-    Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> by_parameter;
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1> now;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                  2 * kFittedContacts, Eigen::Dynamic>
+        by_parameter;
     double decrease = 0;  ///< The move A lowers the cost by this.
   };
   ContactMove move;
-  /// The rows with the contact eliminated, C - E (E'E)^-1 E'C. They say what
-  /// the frame tells about the parameters if l_c and f_c may be anything. Their
-  /// product with themselves is the information of the frame.
+  /// The rows with the contacts eliminated, C - E (E'E)^-1 E'C. They say what
+  /// the frame tells about the parameters if the contacts may be anything.
+  /// Their product with themselves is the information of the frame.
   Rows reduced;
 
-  /// Computes `move` and `reduced` from the rest.
+  /// Computes `move` and `reduced` from the rest, with the part of E'E that is
+  /// more than rounding, or with its inverse.
   void Eliminate();
+  void Eliminate(const ContactMatrix& inverse);
+
+ private:
+  ContactRows scaled_;  // -E (E'E)^-1
 };
 
-/// Inverts the part of a 2 x 2 information matrix that is more than rounding.
-/// For example, a contact without force says nothing about its place.
+/// Inverts the part of an information matrix of one contact that is more than
+/// rounding. For example, a contact without force says nothing about its place.
 Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& information);
 
 /// Returns C - E (E'E)^-1 E'C.

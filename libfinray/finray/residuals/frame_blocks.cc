@@ -74,18 +74,16 @@ void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
     }
     const HistoryTerm history =
         of.histories.empty() ? HistoryTerm{} : of.histories[j];
-    double std_V = out->row.GaugeStd_V(static_cast<std::size_t>(j),
-                                       out->model.gauge_std_V[j]);
     if (history.history != nullptr) {
       blocks.insert(blocks.end(), {history.share, history.ln_time_constant,
                                    history.hysteresis_rad});
-      std_V = std::hypot(std_V, history.history->KeptStd_V(history.row));
     }
     std::vector<double> coefficients = AddTerms(of.readings[j], &blocks);
-    out->Add(new GaugeReadingResidual(out->evaluation, j, &out->row.gauges_V[j],
-                                      std_V, std::move(coefficients), history,
-                                      of.flat_shares != nullptr),
-             std::move(blocks), ResidualFamily::kGauge, j, std_V);
+    auto* residual = new GaugeReadingResidual(
+        out->evaluation, j, &out->row, out->model.gauge_std_V[j],
+        std::move(coefficients), history, of.flat_shares != nullptr);
+    out->Add(residual, std::move(blocks), ResidualFamily::kGauge, j,
+             residual->std_V());
   }
 }
 
@@ -156,7 +154,7 @@ void AddPlace(Builder* out) {
     blocks.insert(blocks.end(),
                   {parameters.object_rotation_deg, parameters.ln_object_scale,
                    parameters.object_radius_mm});
-    out->Add(new ObjectContactResidual(out->evaluation, 0, row.object_mm,
+    out->Add(new ObjectContactResidual(out->evaluation, 0, &row.object_mm,
                                        *out->model.object_std_mm),
              std::move(blocks), ResidualFamily::kObject);
   }
@@ -172,14 +170,14 @@ void AddCamera(Builder* out) {
   if (out->model.pin_std_mm) {
     for (const SeenPin& pin : out->row.pins) {
       const int at = out->evaluation->pin_row(pin.rib, pin.side);
-      out->Add(new PointResidual(out->evaluation, at, pin.at_mm,
+      out->Add(new PointResidual(out->evaluation, at, &pin.at_mm,
                                  *out->model.pin_std_mm),
                out->OfModelAnd(origin), ResidualFamily::kPin);
     }
   }
   if (out->model.tip_std_mm && out->row.tip_mm.allFinite()) {
     out->Add(new PointResidual(out->evaluation, out->evaluation->tip_row(),
-                               out->row.tip_mm, *out->model.tip_std_mm),
+                               &out->row.tip_mm, *out->model.tip_std_mm),
              out->OfModelAnd(origin), ResidualFamily::kTip);
   }
 }
@@ -226,6 +224,49 @@ std::vector<FrameBlock> MeasurementBlocks(const Measurements& row,
   AddPlace(&out);
   AddCamera(&out);
   return std::move(out.blocks);
+}
+
+bool FrameBlocks::Fit(const Measurements& row) const {
+  // Blocks of references hold their numbers.
+  const bool keeps = model_.force_std_N || model_.contact_std_mm ||
+                     row.IsBench() || row_.IsBench();
+  if (blocks_.empty() || keeps || row.gauges_V.size() != row_.gauges_V.size() ||
+      row.pins.size() != row_.pins.size()) {
+    return false;
+  }
+  for (std::size_t j = 0; j < gauges_.size(); ++j) {
+    if (gauges_[j].IsMeasured(row.gauges_V[j]) !=
+        gauges_[j].IsMeasured(row_.gauges_V[j])) {
+      return false;
+    }
+  }
+  for (std::size_t i = 0; i < row.pins.size(); ++i) {
+    if (row.pins[i].rib != row_.pins[i].rib ||
+        row.pins[i].side != row_.pins[i].side) {
+      return false;
+    }
+  }
+  const auto same = [](double a, double b) {
+    return std::isfinite(a) == std::isfinite(b);
+  };
+  return same(row.object_mm.x(), row_.object_mm.x()) &&
+         same(row.object_mm.y(), row_.object_mm.y()) &&
+         same(row.tip_mm.sum(), row_.tip_mm.sum());
+}
+
+const std::vector<FrameBlock>& FrameBlocks::Of(const Measurements& row) {
+  const bool fit = Fit(row);
+  row_ = row;
+  if (!fit) {
+    blocks_ = MeasurementBlocks(row_, model_, parameters_, gauges_, evaluation_,
+                                unknowns_);
+  }
+  for (FrameBlock& block : blocks_) {
+    if (block.family != ResidualFamily::kGauge) continue;
+    block.std_V =
+        static_cast<const GaugeReadingResidual*>(block.cost.get())->std_V();
+  }
+  return blocks_;
 }
 
 std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,

@@ -89,6 +89,37 @@ std::vector<FrameBlock> MeasurementBlocks(const Measurements& row,
                                           const FrameEvaluation* evaluation,
                                           double* unknowns);
 
+/// The measurement blocks of rows that follow each other. They are built once,
+/// and the row's numbers are exchanged: rows with the measurements of the row
+/// before allocate nothing. Blocks of reference sensors are built for each row.
+class FrameBlocks {
+ public:
+  /// All that is pointed to must stay in place; see MeasurementBlocks.
+  FrameBlocks(const MeasurementModel* model, const FrameParameters* parameters,
+              const std::vector<Gauge>* gauges,
+              const FrameEvaluation* evaluation, double* unknowns)
+      : model_(*model),
+        parameters_(*parameters),
+        gauges_(*gauges),
+        evaluation_(evaluation),
+        unknowns_(unknowns) {}
+  FrameBlocks(const FrameBlocks&) = delete;
+
+  const std::vector<FrameBlock>& Of(const Measurements& row);
+
+ private:
+  // Says whether the blocks are those of the measurements of a row.
+  bool Fit(const Measurements& row) const;
+
+  const MeasurementModel& model_;
+  const FrameParameters& parameters_;
+  const std::vector<Gauge>& gauges_;
+  const FrameEvaluation* evaluation_;
+  double* unknowns_;
+  Measurements row_;
+  std::vector<FrameBlock> blocks_;
+};
+
 /// Returns the blocks that hold equilibrium and rib lengths in the weighted
 /// form. `weight` is that of EquilibriumResidual.
 std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,

@@ -17,14 +17,11 @@ FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
       gauges_(model.gauges()),
       contact_count_(contacts),
       by_friction_(model.by_friction()),
-      row_friction_(row),
       loads_(contacts),
       length_mm_(model.finger().front_length_mm),
       back_length_mm_(BeamLength(model.finger(), Side::kBack)),
       state_(LadderState::Undeformed(model)) {
-  for (PointContact& contact : loads_) {
-    contact.friction = row_friction_.At(friction);
-  }
+  set_friction(friction, row);
   if (pins) {
     for (const Rib& rib : model.finger().ribs) {
       loads_.push_back({rib.front_mm, 0, 0, Side::kFront, true});
@@ -45,6 +42,13 @@ FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
     loads_.push_back({gauge.start_mm, 0, 0, gauge.beam, true});
     loads_.push_back(
         {gauge.start_mm + gauge.length_mm, 0, 0, gauge.beam, true});
+  }
+}
+
+void FrameEvaluation::set_friction(double friction, RowFriction row) {
+  row_friction_ = row;
+  for (int c = 0; c < contacts(); ++c) {
+    loads_[c].friction = row.At(friction);
   }
 }
 
@@ -128,8 +132,11 @@ void FrameEvaluation::Take(const double* frame, const Eigen::VectorXd& outputs,
   const int first = contact_row(contacts()), tip = tip_row();
   outputs_.resize(tip + 3);
   d_outputs_.resize(tip + 3, columns());
-  outputs_.head(first) = outputs.head(first);
-  d_outputs_.topRows(first) = d_outputs.topRightCorner(first, columns());
+  const Eigen::Index told = std::min<Eigen::Index>(first, outputs.size());
+  outputs_.head(told) = outputs.head(told);
+  d_outputs_.topRows(told) = d_outputs.topRightCorner(told, columns());
+  outputs_.segment(told, first - told).setConstant(kNaN);
+  d_outputs_.middleRows(told, first - told).setConstant(kNaN);
   if (outputs.size() > contact_row(1)) {
     outputs_.tail<3>() = outputs.tail<3>();
     d_outputs_.bottomRows<3>() = d_outputs.bottomRightCorner(3, columns());

@@ -64,11 +64,15 @@ class FrameEvaluation {
   bool FitsSurface() const;
   /// Takes the rows of a ModelSurface::Values in place of Update. A frame
   /// without contact takes those of a contact without force. Rows of gauges'
-  /// ends are left undefined, and those of a tip that is no output are NaN. The
-  /// friction must be that of the constructor.
+  /// ends are left undefined, and those of a contact and a tip that are no
+  /// outputs are NaN. The friction must be that of the constructor.
   void Take(const double* frame, const Eigen::VectorXd& outputs,
             const Matrix& d_outputs,
             const std::vector<Eigen::Vector2d>& by_place);
+
+  /// Exchanges the friction of the contacts, for rows whose object slides
+  /// another way; the arguments are those of the constructor.
+  void set_friction(double friction, RowFriction row);
 
   bool valid() const { return valid_; }
   /// Marks the model as not evaluated at the present values.

@@ -6,8 +6,8 @@
 namespace finray {
 
 GaugeReadingResidual::GaugeReadingResidual(const FrameEvaluation* frame,
-                                           int gauge, const double* reading_V,
-                                           double std_V,
+                                           int gauge, const Measurements* row,
+                                           double noise_V,
                                            std::vector<double> coefficients,
                                            const HistoryTerm& history,
                                            bool flat)
@@ -15,18 +15,28 @@ GaugeReadingResidual::GaugeReadingResidual(const FrameEvaluation* frame,
                     2 + (frame->movable_gauges() ? 2 : 0) + (flat ? 2 : 0) +
                         (history.history ? 3 : 0) + coefficients.size()),
       gauge_(gauge),
-      reading_V_(reading_V),
-      std_V_(std_V),
+      row_(*row),
+      noise_V_(noise_V),
+      kept_std_V_(history.history == nullptr
+                      ? 0
+                      : history.history->KeptStd_V(history.row)),
       coefficients_(std::move(coefficients)),
       history_(history.history),
       history_row_(history.row),
       flat_(flat) {}
 
+double GaugeReadingResidual::std_V() const {
+  const double std_V =
+      row_.GaugeStd_V(static_cast<std::size_t>(gauge_), noise_V_);
+  return history_ == nullptr ? std_V : std::hypot(std_V, kept_std_V_);
+}
+
 bool GaugeReadingResidual::Evaluate(double const* const* parameters,
                                     double* residuals,
                                     double** jacobians) const {
   if (!frame().valid()) return false;
-  const double weight = std::isnan(*reading_V_) ? 0.0 : 1 / std_V_;
+  const double reading_V = row_.gauges_V[static_cast<std::size_t>(gauge_)];
+  const double weight = std::isnan(reading_V) ? 0.0 : 1 / std_V();
   const double gain = *parameters[extra_block()];
   const double curvature = *parameters[extra_block() + 1];
   const int flat = extra_block() + 2;
@@ -58,7 +68,7 @@ bool GaugeReadingResidual::Evaluate(double const* const* parameters,
     volts +=
         share * (behind.lag.volts - offset / (1 + share)) - behind.play.volts;
   }
-  residuals[0] = weight == 0 ? 0 : weight * (volts - *reading_V_);
+  residuals[0] = weight == 0 ? 0 : weight * (volts - reading_V);
   if (jacobians == nullptr) return true;
   gauge.gain_V_per_rad = gain;
   const double slope = weight * gauge.Slope(angle);

@@ -5,6 +5,7 @@
 
 #include "finray/residuals/frame_residual.h"
 #include "finray/residuals/reading_history.h"
+#include "finray/scene/measurements.h"
 
 namespace finray {
 
@@ -29,20 +30,23 @@ namespace finray {
 /// (not measured) gives a zero residual.
 class GaugeReadingResidual : public FrameResidual {
  public:
-  /// `reading_V` must stay in place; its value may change between solves.
+  /// `row` must stay in place; its numbers may change between solves. sigma_V
+  /// is that of the row's reading where one of the gauge has `noise_V`.
   /// `coefficients` are the c_k; the default is an offset only.
   GaugeReadingResidual(const FrameEvaluation* frame, int gauge,
-                       const double* reading_V, double std_V,
+                       const Measurements* row, double noise_V,
                        std::vector<double> coefficients = {1},
                        const HistoryTerm& history = {}, bool flat = false);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
+  /// sigma_V
+  double std_V() const;
 
  private:
   int gauge_;
-  const double* reading_V_;
-  double std_V_;
+  const Measurements& row_;
+  double noise_V_, kept_std_V_;
   std::vector<double> coefficients_;
   const ReadingHistory* history_;
   int history_row_;

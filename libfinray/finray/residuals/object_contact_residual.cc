@@ -8,11 +8,11 @@ namespace finray {
 
 ObjectContactResidual::ObjectContactResidual(const FrameEvaluation* frame,
                                              int contact,
-                                             const Eigen::Vector2d& center_mm,
+                                             const Eigen::Vector2d* center_mm,
                                              double std_mm)
     : FrameResidual(frame, 2, {2, 1, 1, 1}),
       contact_(contact),
-      center_mm_(center_mm),
+      center_mm_(*center_mm),
       std_mm_(std_mm) {}
 
 bool ObjectContactResidual::Evaluate(double const* const* parameters,

@@ -18,15 +18,16 @@ namespace finray {
 /// ln of the scale (1), radius (1, mm).
 class ObjectContactResidual : public FrameResidual {
  public:
+  /// `center_mm` must stay in place; it may change between solves.
   ObjectContactResidual(const FrameEvaluation* frame, int contact,
-                        const Eigen::Vector2d& center_mm, double std_mm);
+                        const Eigen::Vector2d* center_mm, double std_mm);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
   int contact_;
-  Eigen::Vector2d center_mm_;
+  const Eigen::Vector2d& center_mm_;
   double std_mm_;
 };
 

@@ -3,8 +3,11 @@
 namespace finray {
 
 PointResidual::PointResidual(const FrameEvaluation* frame, int row,
-                             const Eigen::Vector2d& at_mm, double std_mm)
-    : FrameResidual(frame, 2, {2}), row_(row), at_mm_(at_mm), std_mm_(std_mm) {}
+                             const Eigen::Vector2d* at_mm, double std_mm)
+    : FrameResidual(frame, 2, {2}),
+      row_(row),
+      at_mm_(*at_mm),
+      std_mm_(std_mm) {}
 
 bool PointResidual::Evaluate(double const* const* parameters, double* residuals,
                              double** jacobians) const {

@@ -15,16 +15,17 @@ namespace finray {
 /// origin (2, mm).
 class PointResidual : public FrameResidual {
  public:
-  /// `row` is the pin_row() or tip_row() of `frame`.
+  /// `row` is the pin_row() or tip_row() of `frame`. `at_mm` must stay in
+  /// place; it may change between solves.
   PointResidual(const FrameEvaluation* frame, int row,
-                const Eigen::Vector2d& at_mm, double std_mm);
+                const Eigen::Vector2d* at_mm, double std_mm);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
   int row_;  // of x in the frame's outputs
-  Eigen::Vector2d at_mm_;
+  const Eigen::Vector2d& at_mm_;
   double std_mm_;
 };
 

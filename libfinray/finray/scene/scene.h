@@ -64,6 +64,13 @@ struct Scene {
   /// How a lab writes its logs.
   ColumnMapping columns;
 
+  /// Contacts with this friction that nothing but gauges senses.
+  static Scene OfGauges(double friction_coefficient) {
+    Scene scene;
+    scene.friction_coefficient = friction_coefficient;
+    return scene;
+  }
+
   KnownFriction friction() const {
     return {friction_coefficient, friction_std};
   }

@@ -18,15 +18,12 @@ constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
 // A fit may end at this fraction of the chi2 that the table predicts for a
 // start.
 constexpr double kTableFactor = 0.25;
-constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
+constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12;
 // A doubted pair matters only if it explains the frame, which hardly any start
 // does after so many that leave chi2 hopeless.
 constexpr std::size_t kMostHopeless = 4;
 // Contacts that need more iterations from frame to frame have jumped.
 constexpr int kFollowIterations = 8;
-// A followed fit ends at this tolerance, far below any std. ContactFit's own
-// makes readings without noise show every digit.
-constexpr double kFollowTolerance = 1e-9;
 // The table cannot rank starts where its values are wrong by more std than
 // this.
 constexpr double kCoarse = 1;
@@ -77,27 +74,23 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
       length_mm_(finger.front_length_mm),
       solver_(finger, discretization),
       tables_(tables ? std::move(tables)
-                     : std::make_shared<const SearchTables>(scene, &solver_)),
+                     : std::make_shared<const SearchTables>(
+                           scene, discretization, &solver_)),
       table_(tables_->table()),
-      surface_(tables_->surface()),
       most_force_N_(scene.force_max_N.value_or(table_.heaviest_N())),
       found_(length_mm_, most_force_N_, finger.ribs.size()),
       method_(method),
-      fit_(finger, discretization, MeasuredRadius(scene)),
-      problem_(finger, scene, discretization,
-               method == FrameMethod::kCeresWeighted
-                   ? EquilibriumForm::kWeighted
-                   : EquilibriumForm::kReduced,
-               most_force_N_) {
-  fit_.set_most_force(most_force_N_);
+      fit_(finger, scene, discretization, &tables_->surface(), most_force_N_) {
+  if (method != FrameMethod::kFast) {
+    problem_.emplace(finger, scene, discretization,
+                     method == FrameMethod::kCeresWeighted
+                         ? EquilibriumForm::kWeighted
+                         : EquilibriumForm::kReduced,
+                     most_force_N_);
+  }
   const bool two = !scene.object_std_mm &&
                    scene.contacts.value_or(scene.most_contacts) == 2 &&
                    finger.gauges.size() >= 2 * kFittedContacts;
-  if (two && method == FrameMethod::kFast) {
-    following_.emplace(finger, discretization);
-    following_->set_most_force(most_force_N_);
-    following_->set_tolerance(kFollowTolerance);
-  }
   // With a limit no frame waits for the table.
   if (two && scene.search_iteration_limit) tables_->Pairs(&solver_);
 }
@@ -115,15 +108,14 @@ int ContactSearch::LeftOfLimit() const {
 }
 
 int ContactSearch::Left() const {
-  return std::min(LeftOfLimit(), ContactFit::kMostIterations);
+  return std::min(LeftOfLimit(), RowFit::kMostEvaluations);
 }
 
 bool ContactSearch::MayGoOn() {
   if (!scene_.search_iteration_limit) return true;
   const int left = LeftOfLimit();
   ended_ |= left < 1;
-  fit_.set_most_iterations(Left());
-  problem_.set_most_iterations(left);
+  if (problem_) problem_->set_most_iterations(left);
   return left > 0;
 }
 
@@ -178,9 +170,9 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   }
   suspect_ = contacts == 2 && found_.rival(kSuspect) != nullptr;
   if (contacts == 1 && !found_.empty() && method_ == FrameMethod::kFast) {
-    SearchRows(packed, close);
+    SearchRows(close);
     if (close) {
-      SearchBeside(packed);
+      SearchBeside();
       SearchForces(packed);
     }
   }
@@ -195,7 +187,7 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
   const auto is_hopeless = [](double chi2) {
     return chi2 > FrameProblem::kHopelessChi2;
   };
-  std::size_t fallbacks = 0, hopeless = 0;
+  std::size_t hopeless = 0;
   // A rival may be hidden by noise, and two contacts are followed from here.
   const double within = contacts == 2 ? kSuspect : kWithinNoise;
   for (const ContactStart& start : contacts == 2 ? pair_starts_ : starts_) {
@@ -215,24 +207,14 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
       continue;
     }
     if (!MayGoOn()) break;
-    if (method_ != FrameMethod::kFast) {
+    if (problem_) {
       if (FitByCeres(start, row)) found_.Keep();
       continue;
     }
-    if (Fit(start, packed)) {
+    if (Fit(start)) {
       const ContactSolution& next = found_.next();
       if (!on_surface_ || !found_.Knows(next.contacts[0], next.chi2)) {
         found_.Keep();
-      }
-    } else if (fallbacks < kMostFallbacks &&
-               (exact_fit_ || found_.empty() ||
-                !IsExplained(found_.least_chi2(), dof)) &&
-               !(doubted && is_hopeless(kTableFactor * start.chi2))) {
-      ++fallbacks;
-      if (!MayGoOn()) break;
-      if (FitByCeres(start, row)) found_.Keep();
-      if (!found_.empty() && is_hopeless(found_.least_chi2())) {
-        fallbacks = kMostFallbacks;
       }
     }
     if (IsEnough(packed, least_force_N)) break;
@@ -242,16 +224,10 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
   return ProfiledChi2(found_.least_chi2(), dof);
 }
 
-double ContactSearch::FreeChi2(const Measurements& row,
-                               const PackedReadings& packed) {
-  if (method_ != FrameMethod::kFast) return problem_.FreeChi2(row);
-  const Eigen::VectorXd& free = table_.free_angles();
-  double chi2 = 0;
-  for (Eigen::Index j = 0; j < free.size(); ++j) {
-    const double off = packed.weights[j] * (packed.values[j] - free[j]);
-    chi2 += off * off;
-  }
-  return chi2;
+double ContactSearch::FreeChi2(const Measurements& row) {
+  if (problem_) return problem_->FreeChi2(row);
+  fit_.set_row(row);
+  return fit_.FreeChi2();
 }
 
 void ContactSearch::FindStarts(int contacts, const PackedReadings& packed,
@@ -299,66 +275,39 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed,
   pair_starts_.resize(kMostPairStarts);
 }
 
-bool ContactSearch::Fit(const ContactStart& start,
-                        const PackedReadings& packed) {
-  if (!on_surface_ ||
-      !surface_.Fit(packed.values, packed.weights, most_force_N_,
-                    start.contacts[0], &found_.next())) {
-    return FitEquilibria(start, packed);
+bool ContactSearch::Fit(const ContactStart& start) {
+  if (!on_surface_ || !fit_.Fit(start, RowFit::Model::kSurface,
+                                RowFit::kMostEvaluations, &found_.next())) {
+    return FitEquilibria(start, Left());
   }
   Spend(1, true);
   const ContactSolution& solution = found_.next();
   const int left = Left();
   if (solution.chi2 > kNoiseless || left < 1) return true;
-  // The equilibrium comes first: from another one, the first change would lead
-  // the contact away, perhaps beyond a hinge.
   ContactStart here = start;
   here.contacts[0] = solution.contacts[0];
-  solver_.set_state(
-      table_.StateNear(here.contacts[0].arc_mm, here.contacts[0].normal_N));
-  if (!solver_.Solve({here.contacts[0]})) return true;
-  solver_.SaveState(&exact_);
-  here.state = &exact_;
-  fit_.set_most_iterations(left);
+  here.state =
+      &table_.StateNear(here.contacts[0].arc_mm, here.contacts[0].normal_N);
   // The solution of the surface stays if this does not converge.
-  FitEquilibria(here, packed, true);
+  FitEquilibria(here, left, true);
   return true;
 }
 
-bool ContactSearch::FitEquilibria(const ContactStart& start,
-                                  const PackedReadings& packed, bool known) {
-  contacts_.assign(start.contacts.begin(),
-                   start.contacts.begin() + start.count);
-  for (PointContact& contact : contacts_) contact.friction = friction_;
-  fit_.set_state(*start.state);
-  const bool converged = fit_.Fit(packed.values, packed.weights, &contacts_);
-  Spend(fit_.iterations(), known || converged);
-  if (converged) Take(fit_, contacts_);
+bool ContactSearch::FitEquilibria(const ContactStart& start, int most,
+                                  bool known) {
+  const bool converged = fit_.Fit(
+      start, known ? RowFit::Model::kRounding : RowFit::Model::kEquilibria,
+      most, &found_.next());
+  Spend(fit_.evaluations(), known || converged);
   return converged;
 }
 
-void ContactSearch::Take(const ContactFit& fit,
-                         const std::vector<PointContact>& contacts) {
-  ContactSolution& solution = found_.next();
-  solution.count = static_cast<int>(contacts.size());
-  solution.chi2 = fit.chi2();
-  solution.information = fit.information();
-  solution.systematic.resize(0, 0);  // FrameEstimator finds it
-  if (contacts.size() == 2) fit.SaveState(&solution.state);
-  solution.tip_pose = fit.tip_pose();
-  for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
-    solution.rib_tension_N[i] = fit.rib_tension(static_cast<int>(i));
-  }
-  for (int c = 0; c < solution.count; ++c) {
-    solution.contacts[c] = contacts[c];
-    solution.poses[c] = fit.contact_pose(c);
-  }
-}
-
 bool ContactSearch::BeginFollowing() {
-  if (!following_ || suspect_) return false;
-  followed_.assign(best().contacts.begin(), best().contacts.end());
-  following_->set_state(best().state);
+  if (method_ != FrameMethod::kFast || suspect_) return false;
+  followed_.count = 2;
+  followed_.contacts = best().contacts;
+  followed_.state = &followed_state_;
+  followed_state_ = best().state;
   searched_chi2_ = best().chi2;
   turn_ = 0;
   return true;
@@ -370,14 +319,12 @@ bool ContactSearch::Follow(const PackedReadings& packed) {
   iterations_ = 0;
   on_surface_ = false;
   if (!MayGoOn()) return false;
-  following_->set_most_iterations(std::min(Left(), kFollowIterations));
-  const bool converged =
-      following_->Follow(packed.values, packed.weights, &followed_);
-  Spend(following_->iterations(), converged);
-  if (!converged || following_->chi2() > searched_chi2_ + kSuspect) {
+  if (!FitEquilibria(followed_, std::min(Left(), kFollowIterations)) ||
+      found_.next().chi2 > searched_chi2_ + kSuspect) {
     return false;
   }
-  Take(*following_, followed_);
+  followed_.contacts = found_.next().contacts;
+  followed_state_ = found_.next().state;
   found_.Keep();
   if (turn_ == kMostPairStarts) {
     FindStarts(2, packed);
@@ -385,7 +332,7 @@ bool ContactSearch::Follow(const PackedReadings& packed) {
   }
   if (turn_ < pair_starts_.size() && MayGoOn() &&
       kTableFactor * pair_starts_[turn_].chi2 < best().chi2 + kSuspect &&
-      FitEquilibria(pair_starts_[turn_], packed)) {
+      FitEquilibria(pair_starts_[turn_], Left())) {
     found_.Keep();
   }
   ++turn_;
@@ -406,8 +353,7 @@ void ContactSearch::ProfileBest(const PackedReadings& packed,
     for (int i = 0; i < pair_profile_.count && !found_.full(); ++i) {
       if (!MayGoOn()) return;
       const ContactStart& start = pair_profile_.minima[i];
-      if (method_ == FrameMethod::kFast ? FitEquilibria(start, packed)
-                                        : FitByCeres(start, *row)) {
+      if (problem_ ? FitByCeres(start, *row) : FitEquilibria(start, Left())) {
         found_.Keep();
       }
     }
@@ -417,8 +363,8 @@ void ContactSearch::ProfileBest(const PackedReadings& packed,
 
 bool ContactSearch::FitByCeres(const ContactStart& start,
                                const Measurements& row) {
-  const bool converged = problem_.Fit(start, row, &found_.next());
-  Spend(problem_.iterations(), converged);
+  const bool converged = problem_->Fit(start, row, &found_.next());
+  Spend(problem_->iterations(), converged);
   return converged;
 }
 

@@ -8,18 +8,18 @@
 
 #include "finray/scene/scene.h"
 #include "finray/sensing/contact_solution.h"
-#include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/found_solutions.h"
 #include "finray/sensing/frame_problem.h"
 #include "finray/sensing/packed_readings.h"
 #include "finray/sensing/pair_profile.h"
+#include "finray/sensing/row_fit.h"
 #include "finray/sensing/search_tables.h"
 
 namespace finray {
 
 /// The solver that minimises chi2 from a start.
 enum class FrameMethod {
-  kFast,           ///< ContactFit; tests prove it equal to kCeresReduced.
+  kFast,           ///< RowFit; tests prove it equal to kCeresReduced.
   kCeresReduced,   ///< FrameProblem, equilibrium eliminated.
   kCeresWeighted,  ///< FrameProblem, equilibrium as residual blocks.
 };
@@ -29,9 +29,8 @@ const char* FrameMethodName(FrameMethod method);
 /// Finds the contacts that explain a frame, without a guess. It minimises chi2
 /// from the best starts of a table, and from all further starts that might lead
 /// to a rival. A rival is another solution that explains the frame about as
-/// well. One contact is fitted on the GaugeSurface. Where that does not serve,
-/// and for two contacts, ContactFit solves the equilibria. Where that does not
-/// converge, FrameProblem solves the frame.
+/// well. RowFit fits one contact on a surface. Where that does not serve, and
+/// for two contacts, it solves the equilibria.
 class ContactSearch {
  public:
   static constexpr double kWithinNoise = FoundSolutions::kWithinNoise;
@@ -50,10 +49,12 @@ class ContactSearch {
   ContactSearch(const ContactSearch&) = delete;
   ContactSearch& operator=(const ContactSearch&) = delete;
 
-  /// Begins a frame. Its searches share Scene::search_iteration_limit.
-  void Begin() {
+  /// Begins a frame. Its searches share Scene::search_iteration_limit. `row`
+  /// must stay in place.
+  void Begin(const Measurements& row) {
     spent_ = 0;
     ended_ = suspect_ = false;
+    fit_.set_row(row);
   }
   /// Searches with one or two contacts. Returns false if no start converged. A
   /// contact with less than `least_force_N` is none. If IsDoubted, the first
@@ -84,7 +85,7 @@ class ContactSearch {
   bool HasSuspect() const { return suspect_; }
 
   /// chi2 of the finger without a contact.
-  double FreeChi2(const Measurements& row, const PackedReadings& packed);
+  double FreeChi2(const Measurements& row);
 
   /// A search of this frame was ended by the limit, with starts left to try.
   bool ended() const { return ended_; }
@@ -115,20 +116,19 @@ class ContactSearch {
   /// first. Starts come from the table with the scene's.
   void set_friction(double friction) {
     friction_ = friction;
-    problem_.set_friction(friction);
+    fit_.set_friction(friction);
+    if (problem_) problem_->set_friction(friction);
   }
   double friction() const { return friction_; }
 
   const std::shared_ptr<const SearchTables>& tables() const { return tables_; }
   const GaugeTable& table() const { return table_; }
-  const GaugeSurface& surface() const { return surface_; }
   /// The largest credible force: the scene's force_max_N, by default
   /// table().heaviest_N().
   double most_force_N() const { return most_force_N_; }
 
  private:
-  // The iterations left by the limit; and what a fit may take of them, at most
-  // kMostIterations.
+  // The iterations left by the limit; and what a fit may take of them.
   int LeftOfLimit() const;
   int Left() const;
   // Says whether another fit may begin. It then gets the iterations left.
@@ -152,9 +152,9 @@ class ContactSearch {
   // Fits from rows of the table that the solutions found do not account for:
   // from all of them where minima are `close`, else from those beside which
   // chi2 changes too sharply for the table to show a minimum between rows.
-  void SearchRows(const PackedReadings& packed, bool close);
+  void SearchRows(bool close);
   // Fits from places up to a row's spacing away from the best solution.
-  void SearchBeside(const PackedReadings& packed);
+  void SearchBeside();
   // Fits from the other forces of the rows beside the best solution at which
   // the table's chi2 has a minimum.
   void SearchForces(const PackedReadings& packed);
@@ -164,34 +164,29 @@ class ContactSearch {
   // whose distance in std differs from a neighbour's by least_rise or more.
   bool Hides(std::size_t row, double least_rise) const;
   // All fit from a start and fill in the next solution. Fit goes by the surface
-  // where it can, else by FitEquilibria, which is ContactFit.
-  bool Fit(const ContactStart& start, const PackedReadings& packed);
-  // With `known`, a solution is there already if it does not converge.
-  bool FitEquilibria(const ContactStart& start, const PackedReadings& packed,
-                     bool known = false);
+  // where it can, else by FitEquilibria.
+  bool Fit(const ContactStart& start);
+  // With `known`, a solution is there already if it does not converge. Takes at
+  // most `most` iterations.
+  bool FitEquilibria(const ContactStart& start, int most, bool known = false);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
-  // Fills in the next solution.
-  void Take(const ContactFit& fit, const std::vector<PointContact>& contacts);
 
   Scene scene_;
   double friction_, length_mm_;
   EquilibriumSolver solver_;
   std::shared_ptr<const SearchTables> tables_;
   const GaugeTable& table_;
-  const GaugeSurface& surface_;
   double most_force_N_;
   FoundSolutions found_;
   FrameMethod method_;
   bool on_surface_ = false, exact_fit_ = false;  // this search
-  ContactFit fit_;
-  LadderState exact_;  // where a fit goes on to rounding
-  FrameProblem problem_;
+  RowFit fit_;
+  std::optional<FrameProblem> problem_;         // if Ceres solves
   std::vector<ContactStart> profile_, starts_;  // of one contact
   std::vector<ContactStart> pair_starts_;
-  std::vector<PointContact> contacts_;
   PairProfile pair_profile_;
-  std::optional<ContactFit> following_;  // if the scene allows two contacts
-  std::vector<PointContact> followed_;
+  ContactStart followed_;  // the contacts that the last frame left
+  LadderState followed_state_;
   std::size_t turn_ = 0;      // of pair_starts_
   double searched_chi2_ = 0;  // where following began
   bool suspect_ = false;

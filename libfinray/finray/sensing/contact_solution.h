@@ -29,11 +29,8 @@ struct ContactSolution {
   std::array<Eigen::Vector3d, kFittedContacts> poses;  ///< x, y (mm), theta
   Eigen::Vector3d tip_pose;
   std::vector<double> rib_tension_N;
-  /// The equilibrium. ContactFit's fits of one contact leave it out.
+  /// The equilibrium. Fits on a surface leave it out.
   LadderState state;
-  /// Covariance of (l_c, f_c) due to the finger's calibration. Only
-  /// FrameProblem fills it in.
-  ContactMatrix systematic;
 };
 
 }  // namespace finray

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cmath>
 
-#include "finray/io/nan.h"
 #include "finray/sensing/frame_estimator.h"
 #include "finray/sensing/smoothing.h"
 
@@ -10,10 +8,6 @@
 
 namespace finray {
 namespace {
-
-double ArcStd(const ContactMatrix& information) {
-  return std::sqrt(CovarianceOf(information)(0, 0));
-}
 
 // Two contacts are not followed for so many frames after a frame that might
 // have another explanation: noise shows it in some frames and hides it in
@@ -34,9 +28,7 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
       searched = ++i;
       continue;
     }
-    const bool followed = SearchNext(readings[i], packed_[i], &estimates[i]);
-    const bool follow = CanFollow(packed_[i], estimates[i]);
-    if (!followed) {
+    if (!SearchNext(readings[i], packed_[i], &estimates[i])) {
       // Another explanation may have been there while frames were followed.
       if (doubtful_ < kDoubtful) searched = i;
       for (; searched < i; ++searched) {
@@ -46,16 +38,6 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
       searched = i + 1;
     }
     ++i;
-    if (!follow) continue;
-    std::size_t end = i;
-    while (end < count && !Slides(readings[end])) ++end;
-    const std::size_t fitted = FitRun(i, end);
-    for (std::size_t run = 0; run < fitted; ++run, ++i) {
-      if (!TakeFollowed(packed_[i], run, &estimates[i])) {
-        SearchAlone(readings[i], packed_[i], &estimates[i]);
-      }
-    }
-    searched = i;
   }
   if (scene_.smoothing) {
     SmoothBlock(readings, count, {}, estimates);
@@ -72,8 +54,6 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
 
 FrameEstimate FrameEstimator::Next(const Measurements& readings) {
   if (!offsets_) return NextAlone(readings);
-  // The map of rivals is that of the noise, without errors of the offsets.
-  following_ = false;
   FrameEstimate estimate = NextAlone(offsets_->Correct(readings));
   offsets_->Judge(&estimate);
   return estimate;
@@ -86,11 +66,7 @@ FrameEstimate FrameEstimator::NextAlone(const Measurements& readings) {
   }
   FrameEstimate estimate;
   PackAll(&readings, 1);
-  if (!following_ || FitRun(0, 1) == 0 ||
-      !TakeFollowed(packed_[0], 0, &estimate)) {
-    SearchNext(readings, packed_[0], &estimate);
-    following_ = CanFollow(packed_[0], estimate);
-  }
+  SearchNext(readings, packed_[0], &estimate);
   if (scene_.smoothing) {
     followed_ = SmoothBlock(&readings, 1, followed_, &estimate);
   } else {
@@ -108,7 +84,7 @@ bool FrameEstimator::SearchNext(const Measurements& readings,
            StatusOf(*estimate, finger_, search_) == FrameStatus::kOk;
   };
   bool doubtful = false;
-  search_.Begin();
+  search_.Begin(readings);
   if (follows_two_ && all) {
     following_two_ = true;
     Explain(readings, packed, estimate);
@@ -148,67 +124,6 @@ LogPrior FrameEstimator::SmoothBlock(const Measurements* readings,
     }
   }
   return next;
-}
-
-// Says whether later frames can be followed from the frame searched last.
-bool FrameEstimator::CanFollow(const PackedReadings& packed,
-                               const FrameEstimate& estimate) {
-  return follower_ && estimate.contacts == 1 && !estimate.valley &&
-         StatusOf(estimate, finger_, search_) == FrameStatus::kOk &&
-         follower_->Start(search_.best(), ArcStd(search_.best().information),
-                          packed.gauges);
-}
-
-// Fits the packed frames [begin, end) up to the first that lacks a gauge or a
-// contact. Returns their number.
-std::size_t FrameEstimator::FitRun(std::size_t begin, std::size_t end) {
-  const auto all = static_cast<int>(finger_.gauges.size());
-  std::size_t stop = begin;
-  while (stop < end && packed_[stop].gauges == all &&
-         packed_[stop].free_chi2 >= kSignificance) {
-    ++stop;
-  }
-  if (stop > begin) follower_->Fit(&packed_[begin], stop - begin);
-  return stop - begin;
-}
-
-// Takes the follower's fit for its frame number `run`, if a search would find
-// the same.
-bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
-                                  FrameEstimate* estimate) {
-  const ContactSolution& fit = follower_->fit(run);
-  if (fit.count == 0) return false;
-  const PointContact& contact = fit.contacts[0];
-  estimate->chi2 = fit.chi2;
-  estimate->model_chi2 = kNaN;
-  estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
-  // A search is exact to rounding, which this is not.
-  if (estimate->dof > 0 && fit.chi2 < ContactSearch::kNoiseless) return false;
-  // A search weighs the errors of the calibration, which this does not.
-  const double scale = estimate->noise_scale();
-  if (scale > 1 && !systematic_.empty()) return false;
-  const ContactMatrix covariance = CovarianceOf(fit.information);
-  const double arc_std = scale * std::sqrt(covariance(0, 0));
-  const bool alone = scene_.most_contacts < 2 || fit.chi2 < kSecondSignificance;
-  const bool touches =
-      scene_.contacts ? contact.normal_N >= least_force_N_
-                      : alone && packed.free_chi2 - fit.chi2 >= kSignificance;
-  if (!touches || !follower_->IsCertain(run, arc_std, scale)) {
-    return false;
-  }
-  estimate->contacts = 1;
-  estimate->contact[0] = {contact.arc_mm, arc_std, contact.normal_N,
-                          scale * std::sqrt(covariance(1, 1)), fit.poses[0]};
-  estimate->contact[1] = {};
-  estimate->valley.reset();
-  estimate->noise_covariance = covariance;
-  estimate->alternative = {};
-  estimate->alternative_chi2 = kNaN;
-  estimate->tip_pose = fit.tip_pose;
-  estimate->rib_tension_N = fit.rib_tension_N;
-  estimate->iterations = 1;
-  estimate->search_ended = false;
-  return true;
 }
 
 }  // namespace finray

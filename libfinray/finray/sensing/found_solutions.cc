@@ -8,6 +8,7 @@ namespace finray {
 namespace {
 
 constexpr double kSame = 0.01;  // chi2 between fits of one minimum
+constexpr double kTie = 1e-6;   // chi2 that says nothing
 // A rival lies outside the region that holds 99 % of the estimates. These are
 // the quantiles of chi-squared for two and for four parameters.
 constexpr double kDistinct[] = {9.21, 13.28};
@@ -31,14 +32,10 @@ void FoundSolutions::Keep() {
       solution.contacts[1].arc_mm < solution.contacts[0].arc_mm) {
     std::swap(solution.contacts[0], solution.contacts[1]);
     std::swap(solution.poses[0], solution.poses[1]);
-    for (ContactMatrix* matrix :
-         {&solution.information, &solution.systematic}) {
-      if (matrix->size() == 0) continue;
-      const ContactMatrix was = *matrix;
-      for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < 4; ++j) {
-          (*matrix)(i, j) = was((i + 2) % 4, (j + 2) % 4);
-        }
+    const ContactMatrix was = solution.information;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        solution.information(i, j) = was((i + 2) % 4, (j + 2) % 4);
       }
     }
   }
@@ -47,7 +44,13 @@ void FoundSolutions::Keep() {
   const auto chi2 = [this](const ContactSolution& of) {
     return of.chi2 + (HasMostForce(of) ? kWithinNoise : 0);
   };
-  if (count_ == 0 || chi2(solution) < chi2(best())) best_ = count_;
+  // With as many unknowns as readings all leave nothing but rounding. Then the
+  // lighter contact is likelier: a place explains the readings over a range
+  // that is proportional to 1 / f_c (valley.h).
+  const double more = empty() ? 0 : chi2(solution) - chi2(best());
+  const bool lighter =
+      solution.contacts[0].normal_N < solutions_[best_].contacts[0].normal_N;
+  if (empty() || more < -kTie || (more < kTie && lighter)) best_ = count_;
   ++count_;
 }
 

@@ -77,7 +77,7 @@ struct FrameEstimate {
   int dof = 0;
   /// Where noise alone does not explain the frame and the finger has a
   /// calibration: the chi2 that errors of the calibration and the discrepancy
-  /// leave (CalibrationUncertainty::Chi2). NaN elsewhere.
+  /// leave (CalibrationErrors::Chi2). NaN elsewhere.
   double model_chi2 = std::numeric_limits<double>::quiet_NaN();
   int iterations = 0;
   /// The tangential share with which the contacts were found, where the motion

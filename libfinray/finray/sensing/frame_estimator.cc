@@ -80,16 +80,13 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
       method_(method),
       least_force_N_(LeastForce_N(finger)),
       search_(finger, scene, discretization, method),
-      systematic_(SystematicOf(finger, scene, discretization)),
+      systematic_(finger, scene, discretization),
       free_(FreeEstimate(finger, discretization)) {
   if (scene.gauge_offset_walk) {
     offsets_.emplace(finger, *scene.gauge_offset_walk,
                      search_.table().free_angles());
   }
   scene_.gauge_offset_walk.reset();
-  if (method == FrameMethod::kFast && FrameFollower::Serves(scene)) {
-    follower_.emplace(finger, search_);
-  }
 }
 
 FrameEstimator::FrameEstimator(const FrameEstimator& other)
@@ -104,9 +101,6 @@ FrameEstimator::FrameEstimator(const FrameEstimator& other)
       offsets_(other.offsets_),
       free_(other.free_) {
   if (offsets_) offsets_->Restart();
-  if (other.follower_) {
-    follower_.emplace(finger_, search_, other.follower_->rivals());
-  }
 }
 
 std::unique_ptr<FrameEstimator> FrameEstimator::ForAnotherThread() const {
@@ -137,13 +131,6 @@ FrameEstimate FrameEstimator::FreeEstimate(
     free.rib_tension_N.push_back(solver.rib_tension(i));
   }
   return free;
-}
-
-CalibrationUncertainty FrameEstimator::SystematicOf(
-    const Finger& finger, const Scene& scene,
-    const Discretization& discretization) {
-  EquilibriumSolver solver(finger, discretization);
-  return {finger, scene.friction(), &solver, MeasuredRadius(scene)};
 }
 
 FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
@@ -192,14 +179,14 @@ void FrameEstimator::PackAll(const Measurements* readings, std::size_t count) {
   if (packed_.size() < count) packed_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     Pack(finger_, scene_, readings[i], &packed_[i]);
-    packed_[i].free_chi2 = search_.FreeChi2(readings[i], packed_[i]);
+    packed_[i].free_chi2 = search_.FreeChi2(readings[i]);
   }
 }
 
 void FrameEstimator::SearchAlone(const Measurements& readings,
                                  const PackedReadings& packed,
                                  FrameEstimate* estimate) {
-  search_.Begin();
+  search_.Begin(readings);
   Explain(readings, packed, estimate);
 }
 
@@ -265,11 +252,9 @@ bool FrameEstimator::IsSecondCertain(const Measurements& readings,
   const ContactSolution& two = search_.best();
   const double friction = search_.friction();
   const double without = systematic_.Chi2(
-      {{one.contact[0].arc_mm, one.contact[0].normal_N, friction}},
-      readings.gauges_V, packed.weights);
+      {{one.contact[0].arc_mm, one.contact[0].normal_N, friction}}, readings);
   const double with =
-      systematic_.Chi2({two.contacts.begin(), two.contacts.end()},
-                       readings.gauges_V, packed.weights);
+      systematic_.Chi2({two.contacts.begin(), two.contacts.end()}, readings);
   return without - with >= kSecondSignificance;
 }
 
@@ -326,7 +311,6 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings,
 
   const ContactMatrix covariance = CovarianceOf(best.information);
   estimate.noise_covariance = covariance;
-  estimate.calibration_covariance = best.systematic;
   ExplainByModelErrors(readings, packed, &estimate);
   const double scale = estimate.noise_scale();
   for (int c = 0; c < best.count; ++c) {
@@ -375,8 +359,7 @@ void FrameEstimator::ExplainByModelErrors(const Measurements& readings,
     contacts_.push_back({estimate->contact[c].arc_mm,
                          estimate->contact[c].normal_N, search_.friction()});
   }
-  estimate->model_chi2 =
-      systematic_.Chi2(contacts_, readings.gauges_V, packed.weights);
+  estimate->model_chi2 = systematic_.Chi2(contacts_, readings);
 }
 
 void FrameEstimator::Judge(const Measurements& readings,
@@ -384,7 +367,7 @@ void FrameEstimator::Judge(const Measurements& readings,
                            FrameEstimate* estimate) {
   if (estimate->contacts == 0) {
     if (estimate->status == FrameStatus::kNoContact) {
-      JudgeFree(readings.gauges_V, packed, &systematic_, estimate);
+      JudgeFree(readings, &systematic_, estimate);
     }
     return;
   }
@@ -395,16 +378,12 @@ void FrameEstimator::Judge(const Measurements& readings,
       contacts_.push_back({estimate->contact[c].arc_mm,
                            estimate->contact[c].normal_N, search_.friction()});
     }
-    if (method_ == FrameMethod::kFast) {
-      estimate->calibration_covariance =
-          systematic_.Of(contacts_, readings.gauges_V, packed.weights);
-      if (estimate->contacts == 1 &&
-          std::isfinite(estimate->calibration_covariance(0, 0))) {
-        estimate->force_std_N =
-            std::hypot(std::hypot(1, search_.friction()) *
-                           estimate->contact[0].normal_std_N,
-                       std::sqrt(systematic_.whole_force_variance_N2()));
-      }
+    estimate->calibration_covariance = systematic_.Of(contacts_, readings);
+    if (estimate->contacts == 1 &&
+        std::isfinite(estimate->calibration_covariance(0, 0))) {
+      estimate->force_std_N = std::hypot(
+          std::hypot(1, search_.friction()) * estimate->contact[0].normal_std_N,
+          std::sqrt(systematic_.whole_force_variance_N2()));
     }
     AddCovariance(estimate->calibration_covariance, estimate);
   }

@@ -2,11 +2,10 @@
 #define FINRAY_SENSING_FRAME_ESTIMATOR_H_
 
 #include "finray/finger/finger.h"
+#include "finray/fit/calibration_errors.h"
 #include "finray/scene/measurements.h"
 #include "finray/scene/scene.h"
-#include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/contact_search.h"
-#include "finray/sensing/fast/frame_follower.h"
 #include "finray/sensing/frame_estimate.h"
 #include "finray/sensing/live_offsets.h"
 #include "finray/sensing/log_prior.h"
@@ -21,7 +20,7 @@ namespace finray {
 /// `contacts: auto` takes a contact if it lowers chi2 by kSignificance or more.
 /// With four gauges or more it takes a second one if that lowers chi2 by
 /// another kSecondSignificance or more, also with the errors that the finger's
-/// calibration may have (CalibrationUncertainty::Chi2).
+/// calibration may have (CalibrationErrors::Chi2).
 ///
 /// The scene's gauge_offset_walk counts in Next() only (LiveOffsets).
 ///
@@ -63,9 +62,8 @@ class FrameEstimator {
   FrameEstimator& operator=(const FrameEstimator&) = delete;
 
   /// Makes another estimator of the same finger and scene, for another thread.
-  /// It starts a new log. Both share the tables of the search and the map of
-  /// rivals, so that it takes far less time. No thread may use this one
-  /// meanwhile.
+  /// It starts a new log. Both share the tables of the search, so that it takes
+  /// far less time. No thread may use this one meanwhile.
   std::unique_ptr<FrameEstimator> ForAnotherThread() const;
   /// The same under another calibration of the same parameters. Only its
   /// covariance and its discrepancy count, not its values.
@@ -91,8 +89,8 @@ class FrameEstimator {
   /// Makes what frames with one contact and the scene's friction would make
   /// when they first need it, so that none of them waits.
   void Prepare() const {
-    if (method_ == FrameMethod::kFast) search_.surface().Prepare();
-    if (follower_) follower_->rivals()->Prepare();
+    if (method_ == FrameMethod::kFast) search_.tables()->surface().MakeAll();
+    systematic_.Prepare();
   }
   /// The next call of Next() starts a new log.
   void Restart() {
@@ -112,9 +110,6 @@ class FrameEstimator {
   /// The estimate of a frame without a contact, but for chi2 and dof.
   static FrameEstimate FreeEstimate(const Finger& finger,
                                     const Discretization& discretization);
-  static CalibrationUncertainty SystematicOf(
-      const Finger& finger, const Scene& scene,
-      const Discretization& discretization);
   /// Adds a covariance of (l_c, f_c) of each contact to the std.
   static void AddCovariance(const ContactMatrix& covariance,
                             FrameEstimate* estimate);
@@ -142,13 +137,9 @@ class FrameEstimator {
   bool SearchNext(const Measurements& readings, const PackedReadings& packed,
                   FrameEstimate* estimate);
   void LeaveLastFrame() {
-    following_ = follows_two_ = false;
+    follows_two_ = false;
     doubtful_ = 0;
   }
-  bool CanFollow(const PackedReadings& packed, const FrameEstimate& estimate);
-  std::size_t FitRun(std::size_t begin, std::size_t end);
-  bool TakeFollowed(const PackedReadings& packed, std::size_t run,
-                    FrameEstimate* estimate);
   // Smooths and judges frames of one log.
   LogPrior SmoothBlock(const Measurements* readings, std::size_t count,
                        const LogPrior& before, FrameEstimate* estimates);
@@ -179,12 +170,10 @@ class FrameEstimator {
   FrameMethod method_;
   double least_force_N_;
   ContactSearch search_;
-  std::optional<FrameFollower> follower_;  // if it serves the scene
-  bool following_ = false;                 // by Next
   bool follows_two_ = false;    // the last frame left two contacts to follow
   int doubtful_ = 0;            // so many of the next frames are searched
   bool following_two_ = false;  // this frame
-  CalibrationUncertainty systematic_;
+  CalibrationErrors systematic_;
   std::vector<PointContact> contacts_;
   std::optional<LiveOffsets> offsets_;  // where they wander, for Next
   LogPrior followed_;                   // by Next, if the scene has smoothing

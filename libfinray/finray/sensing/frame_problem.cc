@@ -6,7 +6,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
-#include <unordered_map>
 
 #include "finray/residuals/block_rows.h"
 
@@ -62,7 +61,7 @@ class AfterStep final : public ceres::IterationCallback {
 FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
                            const Discretization& discretization,
                            EquilibriumForm form, double most_force_N)
-    : finger_(ForFriction(finger, scene.friction())),
+    : finger_(WithoutCalibration(finger)),
       model_(MeasurementModel::OfScene(finger, scene)),
       friction_(scene.friction_coefficient),
       most_force_N_(most_force_N),
@@ -70,9 +69,7 @@ FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
       form_(form),
       parameters_(finger_, scene.circle_radius_mm()),
       frames_(finger, discretization, form, parameters_.shared(), 1),
-      solver_(finger, discretization) {
-  if (finger_.calibration) calibration_factor_ = finger_.calibration->Factor();
-}
+      solver_(finger, discretization) {}
 
 FrameEvaluation& FrameProblem::Prepare(const Measurements& row, int contacts,
                                        const LadderState& state,
@@ -80,8 +77,7 @@ FrameEvaluation& FrameProblem::Prepare(const Measurements& row, int contacts,
   blocks_.clear();
   frames_.Clear();
   FrameEvaluation& frame =
-      frames_.Add(contacts, friction_, unknowns_.data(), camera_,
-                  finger_.calibration && finger_.calibration->HasGaugePlaces());
+      frames_.Add(contacts, friction_, unknowns_.data(), camera_);
   frame.set_state(state);
   blocks_ = MeasurementBlocks(row, model_, parameters_.frame(), finger_.gauges,
                               &frame, unknowns_.data());
@@ -223,130 +219,7 @@ bool FrameProblem::Read(const ContactStart& start, const FrameEvaluation& frame,
   const Eigen::MatrixXd root = r.bottomRightCorner(
       std::max<Eigen::Index>(0, r.rows() - size + 2 * count), 2 * count);
   solution->information = root.transpose() * root;
-  if (calibration_factor_.size() > 0) {
-    solution->systematic = Systematic(rows.jacobian, *solution);
-  }
   return true;
-}
-
-// dx/dp = -(E'E)^-1 E'C, with E the derivatives of all blocks by the unknowns
-// and C those by the parameters. Then C_sys = (dx/dp) C_pp (dx/dp)' as in
-// CalibrationUncertainty.
-// The discrepancy acts as offsets do, as gauges with a slope see an angle.
-ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
-                                       const ContactSolution& at) {
-  const int contacts = at.count;
-  SharedParameters& shared = *parameters_.shared();
-  const auto& parameters = finger_.calibration->parameters;
-  const auto count = static_cast<Eigen::Index>(parameters.size());
-  const auto ribs = static_cast<Eigen::Index>(shared.rib_lengths_mm.size());
-  const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
-  const auto effects = static_cast<Eigen::Index>(shared.effect_values.size());
-  // Columns of C: stiffness, rib lengths, kOwn for each gauge, then effects.
-  constexpr int kOwn = 7;
-  const auto of_gauge = [ribs](int gauge, int which) {
-    return static_cast<int>(2 + ribs) + kOwn * gauge + which;
-  };
-  std::unordered_map<const double*, int> column_of = {
-      {&shared.ln_front_stiffness, 0}, {&shared.ln_back_stiffness, 1}};
-  if (ribs > 0) column_of.emplace(shared.rib_lengths_mm.data(), 2);
-  for (int j = 0; j < gauges; ++j) {
-    double* const own[] = {
-        parameters_.gain(j),         parameters_.offset(j),
-        parameters_.curvature(j),    &shared.gauge_starts_mm[j],
-        &shared.gauge_lengths_mm[j], parameters_.flat_share(j),
-        parameters_.ln_flat_width(j)};
-    for (int k = 0; k < kOwn; ++k) column_of.emplace(own[k], of_gauge(j, k));
-  }
-  int effect = of_gauge(static_cast<int>(gauges), 0);
-  if (effects > 0) column_of.emplace(shared.effect_values.data(), effect);
-  BlockRows rows;
-  rows.Evaluate(blocks_, column_of,
-                static_cast<int>(2 + ribs + kOwn * gauges + effects));
-  Eigen::MatrixXd by_parameter(rows.jacobian.rows(), count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const FingerParameter& p = parameters[static_cast<std::size_t>(k)];
-    const auto column = [&](Eigen::Index i) { return rows.jacobian.col(i); };
-    switch (p.kind) {
-      case FingerParameterKind::kFrontStiffness:
-        by_parameter.col(k) = column(0) / finger_.front_stiffness_N_mm2;
-        break;
-      case FingerParameterKind::kBackStiffness:
-        by_parameter.col(k) = column(1) / finger_.back_stiffness_N_mm2;
-        break;
-      case FingerParameterKind::kRibLength:
-        by_parameter.col(k) = column(2 + p.index);
-        break;
-      case FingerParameterKind::kGaugeGain:
-        by_parameter.col(k) = column(of_gauge(p.index, 0));
-        break;
-      case FingerParameterKind::kGaugeOffset:
-        by_parameter.col(k) = column(of_gauge(p.index, 1));
-        break;
-      case FingerParameterKind::kGaugeCurvature:
-        by_parameter.col(k) = column(of_gauge(p.index, 2));
-        break;
-      case FingerParameterKind::kGaugeStart:
-        by_parameter.col(k) = column(of_gauge(p.index, 3));
-        break;
-      case FingerParameterKind::kGaugeLength:
-        by_parameter.col(k) = column(of_gauge(p.index, 4));
-        break;
-      case FingerParameterKind::kGaugeCreepShare: {
-        // As in CalibrationUncertainty, for a gauge that has come to rest.
-        const Gauge& gauge = finger_.gauges[static_cast<std::size_t>(p.index)];
-        by_parameter.col(k) = gauge.gain_V_per_rad / (1 + gauge.creep_share) *
-                              column(of_gauge(p.index, 0));
-        break;
-      }
-      case FingerParameterKind::kGaugeFlatShare:
-        by_parameter.col(k) = column(of_gauge(p.index, 5));
-        break;
-      case FingerParameterKind::kGaugeFlatWidth:
-        by_parameter.col(k) =
-            column(of_gauge(p.index, 6)) /
-            finger_.gauges[static_cast<std::size_t>(p.index)].flat_width_rad;
-        break;
-      case FingerParameterKind::kGaugeCreepTime:
-      case FingerParameterKind::kGaugeHysteresis:
-        by_parameter.col(k).setZero();
-        break;
-      case FingerParameterKind::kHingeStiffness:
-      case FingerParameterKind::kRibBending:
-      case FingerParameterKind::kFrontPiece:
-      case FingerParameterKind::kBackPiece:
-      case FingerParameterKind::kFrontHinge:
-      case FingerParameterKind::kBackHinge:
-      case FingerParameterKind::kFrontClamp:
-      case FingerParameterKind::kBackClamp:
-      case FingerParameterKind::kBackAngle:
-      case FingerParameterKind::kSurfaceOffset:
-      case FingerParameterKind::kFriction:
-        by_parameter.col(k) = column(effect++);
-        break;
-    }
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(by_unknown);
-  const Eigen::MatrixXd by_factor =
-      qr.solve(by_parameter * calibration_factor_).bottomRows(2 * contacts);
-  ContactMatrix systematic = by_factor * by_factor.transpose();
-  if (finger_.calibration->discrepancy) {
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(gauges, gauges);
-    Eigen::MatrixXd by_angle(rows.jacobian.rows(), gauges);
-    for (int c = 0; c < contacts; ++c) {
-      finger_.calibration->discrepancy->AddTo(
-          at.contacts[c].arc_mm, at.contacts[c].normal_N, &covariance);
-    }
-    for (int j = 0; j < gauges; ++j) {
-      const Gauge& gauge = finger_.gauges[static_cast<std::size_t>(j)];
-      by_angle.col(j) = gauge.Slope(frames_[0].outputs()[j]) *
-                        rows.jacobian.col(of_gauge(j, 1));
-    }
-    const Eigen::MatrixXd by_error =
-        qr.solve(by_angle).bottomRows(2 * contacts);
-    systematic += by_error * covariance * by_error.transpose();
-  }
-  return systematic;
 }
 
 double FrameProblem::FreeChi2(const Measurements& row) {

@@ -17,7 +17,7 @@ namespace finray {
 ///
 /// x is (l_c, f_c) of each contact in the reduced form, and (base loads, rib
 /// tensions, l_c, f_c of each contact) in the weighted one. FrameProblem is the
-/// reference against which the fast solver (ContactFit) is tested. It alone
+/// reference against which the fast solver (RowFit) is tested. It alone
 /// takes every kind of measurement.
 class FrameProblem {
  public:
@@ -56,8 +56,6 @@ class FrameProblem {
   bool Solve();
   bool Read(const ContactStart& start, const FrameEvaluation& frame,
             ContactSolution* solution);
-  ContactMatrix Systematic(const Eigen::MatrixXd& by_unknown,
-                           const ContactSolution& at);
 
   Finger finger_;
   MeasurementModel model_;
@@ -68,7 +66,6 @@ class FrameProblem {
   FrameSet frames_;
   EquilibriumSolver
       solver_;  // finds the base loads that weighted fits start from
-  Eigen::MatrixXd calibration_factor_;  // of the finger's covariance, or empty
   std::vector<double> unknowns_;
   std::vector<FrameBlock> blocks_;
   std::optional<int> most_iterations_;

@@ -6,12 +6,11 @@
 
 namespace finray {
 
-void JudgeFree(const std::vector<double>& readings_V,
-               const PackedReadings& packed, CalibrationUncertainty* systematic,
+void JudgeFree(const Measurements& row, CalibrationErrors* systematic,
                FrameEstimate* estimate) {
   if (!estimate->IsUnexplained()) return;
-  if (!systematic->empty() && packed.camera == 0) {
-    estimate->model_chi2 = systematic->Chi2({}, readings_V, packed.weights);
+  if (!systematic->empty()) {
+    estimate->model_chi2 = systematic->Chi2({}, row);
     if (!estimate->IsUnexplained()) return;
   }
   LeaveUnknown(estimate);

@@ -1,12 +1,9 @@
 #ifndef FINRAY_SENSING_FREE_FRAME_H_
 #define FINRAY_SENSING_FREE_FRAME_H_
 
-#include <vector>
-
+#include "finray/fit/calibration_errors.h"
 #include "finray/scene/scene.h"
-#include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/frame_estimate.h"
-#include "finray/sensing/packed_readings.h"
 
 namespace finray {
 
@@ -16,8 +13,7 @@ namespace finray {
 /// FrameEstimate::kUnexplained, also with the errors that the finger's
 /// calibration may have (FrameEstimate::model_chi2, which takes an
 /// equilibrium). The frame is then unobservable, without force and shape.
-void JudgeFree(const std::vector<double>& readings_V,
-               const PackedReadings& packed, CalibrationUncertainty* systematic,
+void JudgeFree(const Measurements& row, CalibrationErrors* systematic,
                FrameEstimate* estimate);
 
 /// Makes a frame unobservable, without force and shape: nobody knows whether

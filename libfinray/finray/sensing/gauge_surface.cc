@@ -201,7 +201,6 @@ bool GaugeSurface::Fit(const Eigen::Ref<const Eigen::VectorXd>& values,
       solution->chi2 = std::max(0.0, here->chi2 + fallen);
       solution->information =
           InformationOf(here->normal, length_mm_, force_unit_N_);
-      solution->systematic.resize(0, 0);  // FrameEstimator finds it
       return SetOutputs(exact_std_ / weights.cwiseProduct(resolution_).norm(),
                         solution);
     }

@@ -38,7 +38,7 @@ bool IsLoaded(const ContactStart& row) {
 
 // Minima lie close together where a finger is upright or has many ribs, and the
 // table may rank them wrongly where the noise is less than its own error.
-void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
+void ContactSearch::SearchRows(bool close) {
   const auto may_lead_on = [&](std::size_t i) {
     return close
                ? IsBeside(i) || Hides(i, 0)
@@ -55,13 +55,13 @@ void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
       }
     }
     if (next == profile_.size() || !MayGoOn()) return;
-    if (Fit(profile_[next], packed) && !found_.KnowsNext()) found_.Keep();
+    if (Fit(profile_[next]) && !found_.KnowsNext()) found_.Keep();
     profile_[next].count = 0;  // tried
   }
 }
 
 // Two minima may lie between the same two rows.
-void ContactSearch::SearchBeside(const PackedReadings& packed) {
+void ContactSearch::SearchBeside() {
   // found_.Keep() writes behind this one.
   const ContactSolution& from = found_.best();
   for (const double rows : {-1.0, -0.5, 0.5, 1.0}) {
@@ -78,7 +78,7 @@ void ContactSearch::SearchBeside(const PackedReadings& packed) {
                    most_force_N_);
     start.state =
         &table_.StateNear(start.contacts[0].arc_mm, start.contacts[0].normal_N);
-    if (Fit(start, packed) && !found_.KnowsNext()) found_.Keep();
+    if (Fit(start) && !found_.KnowsNext()) found_.Keep();
   }
 }
 
@@ -111,7 +111,7 @@ void ContactSearch::SearchForces(const PackedReadings& packed) {
       start.contacts[0] = {row.arc_mm, row.nodes[k].normal_N,
                            scene_.friction_coefficient};
       start.state = &row.nodes[k].state;
-      if (Fit(start, packed) && !found_.KnowsNext()) found_.Keep();
+      if (Fit(start) && !found_.KnowsNext()) found_.Keep();
     }
   }
 }

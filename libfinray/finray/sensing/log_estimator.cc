@@ -44,14 +44,14 @@ const Finger& Checked(const Finger& finger, const Scene& scene) {
   return finger;
 }
 
-// The readings with the finger's offsets.
-std::vector<double> WithoutWander(const Finger& finger, const LogFrame& frame) {
-  std::vector<double> readings_V = frame.row.gauges_V;
-  for (std::size_t j = 0; j < readings_V.size(); ++j) {
-    readings_V[j] += finger.gauges[j].offset_V -
-                     frame.offset_V[static_cast<Eigen::Index>(j)];
-  }
-  return readings_V;
+// The row with the finger's offsets.
+Measurements WithoutWander(const Finger& finger, const LogFrame& frame) {
+  OffsetBelief told;
+  told.mean_V = frame.offset_V;
+  told.variance_V2 = Eigen::VectorXd::Zero(frame.offset_V.size());
+  Measurements row;
+  MoveToOffsetsOf(finger, told, frame.row, &row);
+  return row;
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ LogEstimator::LogEstimator(const Finger& finger, const Scene& scene,
       threads_(threads),
       take_(std::move(take)),
       detection_(finger, scene, discretization),
-      systematic_(FrameEstimator::SystematicOf(finger, scene, discretization)),
+      systematic_(finger, scene, discretization),
       free_(FrameEstimator::FreeEstimate(finger, discretization)),
       least_force_N_(FrameEstimator::LeastForce_N(finger)),
       prior_(FirstPrior()) {}
@@ -301,7 +301,7 @@ FrameEstimate LogEstimator::Judge(const LogFrame& frame,
   } else {
     estimate.chi2 = FreeChi2(frame, marginal);
     estimate.dof = packed.gauges;
-    JudgeFree(WithoutWander(finger_, frame), packed, &systematic_, &estimate);
+    JudgeFree(WithoutWander(finger_, frame), &systematic_, &estimate);
     if (frame.doubtful) LeaveUnknown(&estimate);
   }
   estimate.iterations = iterations_;
@@ -320,11 +320,10 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
                                 FrameEstimate* estimate) {
   const std::vector<PointContact> contacts = {
       {frame.arc_mm, frame.normal_N, scene_.friction_coefficient}};
-  const std::vector<double> readings_V = WithoutWander(finger_, frame);
+  const Measurements row = WithoutWander(finger_, frame);
   if (!systematic_.empty() && packed.all == packed.gauges &&
       estimate->p_value() < FrameEstimate::kUnexplained) {
-    estimate->model_chi2 =
-        systematic_.Chi2(contacts, readings_V, packed.weights);
+    estimate->model_chi2 = systematic_.Chi2(contacts, row);
   }
   const double scale = estimate->noise_scale();
   frame.CopyTo(scale * scale * marginal.covariance, estimate);
@@ -337,8 +336,7 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
     estimate->contact[0].normal_noise_N = noise[1];
   }
   if (!systematic_.empty()) {
-    FrameEstimator::AddCovariance(
-        systematic_.Of(contacts, readings_V, packed.weights), estimate);
+    FrameEstimator::AddCovariance(systematic_.Of(contacts, row), estimate);
   }
   if (frame.rival) {
     const ContactSolution& rival = frame.rival->contact;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "finray/sensing/calibration_uncertainty.h"
+#include "finray/fit/calibration_errors.h"
 #include "finray/sensing/frame_estimate.h"
 #include "finray/sensing/frame_estimator.h"
 #include "finray/sensing/log_problem.h"
@@ -87,7 +87,7 @@ class LogEstimator {
   int threads_;
   Take take_;
   TouchDetection detection_;
-  CalibrationUncertainty systematic_;
+  CalibrationErrors systematic_;
   FrameEstimate free_;
   int iterations_ = 0;  // of the window under way
   double least_force_N_;

@@ -36,6 +36,10 @@ void MoveToOffsetsOf(const Finger& finger, const OffsetBelief& belief,
   moved->history_std_V.resize(row.gauges_V.size());
   for (std::size_t j = 0; j < row.gauges_V.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
+    // A reading at the rail stays none, wherever it is moved.
+    if (!finger.gauges[j].IsMeasured(row.gauges_V[j])) {
+      moved->gauges_V[j] = Measurements::kNotMeasured;
+    }
     moved->gauges_V[j] += finger.gauges[j].offset_V - belief.mean_V[i];
     moved->history_std_V[j] =
         std::hypot(row.history_std_V.empty() ? 0 : row.history_std_V[j],

@@ -10,7 +10,7 @@
 
 namespace finray {
 
-/// A row in the form that the tables and the fast solver take: the gauges'
+/// A row in the form that the tables take: the gauges'
 /// angles in rad and, if the scene measures it, the circle's centre in mm
 /// behind them. Weights are 1 / std, or 0 for missing and saturated readings.
 struct PackedReadings {

@@ -1,14 +1,17 @@
 #include "finray/sensing/search_tables.h"
 
 #include "finray/sensing/packed_readings.h"
+#include "finray/sensing/row_fit.h"
 
 namespace finray {
 
-SearchTables::SearchTables(const Scene& scene, EquilibriumSolver* solver)
+SearchTables::SearchTables(const Scene& scene,
+                           const Discretization& discretization,
+                           EquilibriumSolver* solver)
     : table_(solver, scene.friction_coefficient, MeasuredRadius(scene),
              scene.force_max_N),
-      surface_(*solver, scene.friction_coefficient, MeasuredRadius(scene),
-               table_.heaviest_N()) {}
+      surface_(RowFit::SurfaceFor(solver->model().finger(), scene,
+                                  discretization, table_.heaviest_N())) {}
 
 const PairTable& SearchTables::Pairs(EquilibriumSolver* solver) const {
   std::call_once(pairs_made_, [&] {

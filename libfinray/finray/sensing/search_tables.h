@@ -4,8 +4,8 @@
 #include <memory>
 #include <mutex>
 
+#include "finray/residuals/model_surface.h"
 #include "finray/scene/scene.h"
-#include "finray/sensing/gauge_surface.h"
 #include "finray/sensing/gauge_table.h"
 #include "finray/sensing/pair_table.h"
 
@@ -17,17 +17,18 @@ class SearchTables {
  public:
   /// Afterwards `solver` is as after Reset(). Throws InputError for a finger
   /// without an unloaded equilibrium.
-  SearchTables(const Scene& scene, EquilibriumSolver* solver);
+  SearchTables(const Scene& scene, const Discretization& discretization,
+               EquilibriumSolver* solver);
 
   const GaugeTable& table() const { return table_; }
-  const GaugeSurface& surface() const { return surface_; }
+  const ModelSurface& surface() const { return surface_; }
   /// The first call makes it with `solver`, which must be one of the same
   /// finger; other threads wait. Afterwards `solver` is as after Reset().
   const PairTable& Pairs(EquilibriumSolver* solver) const;
 
  private:
   GaugeTable table_;
-  GaugeSurface surface_;
+  ModelSurface surface_;
   mutable std::once_flag pairs_made_;
   mutable std::unique_ptr<const PairTable> pairs_;
 };

@@ -221,27 +221,18 @@ std::vector<OffsetBelief> TouchDetection::FromOneSide(
 bool TouchDetection::FindContact(const LogFrame& frame,
                                  const Eigen::VectorXd& mean_V,
                                  const Eigen::VectorXd& variance_V2) {
-  Pack(finger_, scene_, frame.row, &measurement_);
-  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
-    const Gauge& gauge = finger_.gauges[j];
-    if (!gauge.IsMeasured(frame.row.gauges_V[j])) continue;
-    Gauge moved = gauge;
-    moved.offset_V = mean_V[j];
-    const double angle = moved.Angle(frame.row.gauges_V[j]);
-    const bool read = std::isfinite(angle);
-    measurement_.values[j] = read ? angle : 0;
-    measurement_.weights[j] =
-        read ? std::abs(gauge.Slope(angle)) /
-                   std::hypot(std::sqrt(variance_V2[j]),
-                              frame.row.GaugeStd_V(j, gauge.noise_V))
-             : 0;
-  }
+  OffsetBelief belief;
+  belief.mean_V = mean_V;
+  belief.variance_V2 = variance_V2;
+  MoveToOffsetsOf(finger_, belief, frame.row, &moved_);
+  Pack(finger_, scene_, moved_, &measurement_);
   const double free_chi2 = FreeChi2(frame, mean_V, variance_V2);
   measurement_.free_chi2 = free_chi2;
   if (measurement_.all < 2 || scene_.contacts == 0) return false;
-  if (scene_.contacts) return search_.Search(1, frame.row, measurement_);
+  search_.Begin(moved_);
+  if (scene_.contacts) return search_.Search(1, moved_, measurement_);
   return free_chi2 >= FrameEstimator::kSignificance &&
-         search_.Search(1, frame.row, measurement_) &&
+         search_.Search(1, moved_, measurement_) &&
          free_chi2 - search_.best().chi2 >= FrameEstimator::kSignificance;
 }
 

@@ -103,7 +103,8 @@ class TouchDetection {
   ContactSearch search_;
   HeldTouch before_;                // at the first frame
   std::vector<HeldTouch> touches_;  // before each frame of Decide
-  PackedReadings measurement_;      // of the last FindContact
+  Measurements moved_;              // of the last FindContact
+  PackedReadings measurement_;      // the same
 };
 
 }  // namespace finray

@@ -7,7 +7,6 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
-#include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/chi_squared.h"
 #include "finray/sensing/frame_estimator.h"
 
@@ -108,13 +107,8 @@ class Sensor {
  public:
   Sensor(const Finger& finger, const Discretization& discretization)
       : solver_(finger, discretization),
-        systematic_(finger, 0, &solver_),
-        estimator_(WithoutCovariance(finger), OneContact(), discretization),
-        weights_(finger.gauges.size()) {
-    for (Eigen::Index j = 0; j < weights_.size(); ++j) {
-      weights_[j] = finger.gauges[j].AngleWeight();
-    }
-  }
+        systematic_(finger, OneContact(), discretization),
+        estimator_(WithoutCalibration(finger), OneContact(), discretization) {}
 
   // Returns the readings under a contact, or none if the finger cannot carry
   // it.
@@ -131,24 +125,22 @@ class Sensor {
   }
 
   FrameEstimate Sense(const std::vector<double>& volts) {
-    Measurements readings;
-    readings.gauges_V = volts;
-    return estimator_.Estimate(readings);
+    return estimator_.Estimate(RowOf(volts));
   }
 
   // Returns the variances of l_c and f_c.
   Eigen::Vector2d Variance(double arc, double force,
                            const std::vector<double>& volts) {
     if (systematic_.empty()) return {0, 0};
-    return systematic_.Of({{arc, force, 0}}, volts, weights_).diagonal();
+    return systematic_.Of({{arc, force, 0}}, RowOf(volts)).diagonal();
   }
   bool knows() const { return !systematic_.empty(); }
 
  private:
-  static Finger WithoutCovariance(const Finger& finger) {
-    Finger without = finger;
-    without.calibration.reset();
-    return without;
+  static Measurements RowOf(const std::vector<double>& volts) {
+    Measurements row;
+    row.gauges_V = volts;
+    return row;
   }
   static Scene OneContact() {
     Scene scene;
@@ -157,9 +149,8 @@ class Sensor {
   }
 
   EquilibriumSolver solver_;
-  CalibrationUncertainty systematic_;
+  CalibrationErrors systematic_;
   FrameEstimator estimator_;
-  Eigen::VectorXd weights_;
 };
 
 void CompareGrid(const Finger& finger_a, const Finger& finger_b,

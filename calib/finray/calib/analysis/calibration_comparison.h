@@ -25,7 +25,7 @@ namespace finray {
 /// In the field, both calibrations sense what the gauges of a would read under
 /// a contact (l_c, f_c). a finds that contact itself, and b is off by the
 /// differences. The std of the differences follows from the covariances of both
-/// (CalibrationUncertainty). It leaves out the noise of the readings, which
+/// (CalibrationErrors). It leaves out the noise of the readings, which
 /// both share.
 struct Comparison {
   struct Parameter {

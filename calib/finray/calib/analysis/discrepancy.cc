@@ -15,8 +15,8 @@
 #include "finray/calib/analysis/validation.h"
 #include "finray/calib/solve/contact_store.h"
 #include "finray/calib/solve/frame_pass.h"
+#include "finray/fit/calibration_errors.h"
 #include "finray/io/number_text.h"
-#include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/chi_squared.h"
 
 namespace finray {
@@ -135,9 +135,10 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
   for (const int i : frames) logs.frames.push_back(problem->frame(i));
   logs = problem->parameters().Corrected(logs, finger);
   const double coefficient = problem->parameters().friction();
-  EquilibriumSolver solver(finger, problem->discretization());
-  CalibrationUncertainty uncertainty(finger, coefficient, &solver, {},
-                                     CalibrationUncertainty::Table::kNone);
+  CalibrationErrors calibration(finger, Scene::OfGauges(coefficient),
+                                problem->discretization(),
+                                CalibrationErrors::Surface::kNone);
+  const Eigen::MatrixXd factor = finger.calibration->Factor();
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const CalibrationFrame& frame = logs.frames[k];
@@ -153,13 +154,15 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
     for (Eigen::Index j = 0; j < gauges; ++j) {
       const Gauge& gauge = finger.gauges[j];
       all &= gauge.IsMeasured(frame.gauges_V[j]);
-      weights[j] = std::abs(gauge.Slope(gauge.Angle(frame.gauges_V[j]))) /
+      weights[j] = gauge.Slope(gauge.Angle(frame.gauges_V[j])) /
                    frame.GaugeStd_V(static_cast<std::size_t>(j), gauge.noise_V);
     }
     if (!all) continue;
-    const auto at = uncertainty.ErrorsAt({{arc_mm, normal_N, friction}},
-                                         frame.gauges_V, weights);
-    if (!at) continue;
+    const LinearizedFrame* const at =
+        calibration.Linearize({{arc_mm, normal_N, friction}}, frame);
+    if (at == nullptr) continue;
+    // From std to angles.
+    const auto std_rad = weights.cwiseInverse().asDiagonal();
     Eigen::Vector2d reference(0, sensed ? frame.ForceStd_N(plan) : 0);
     if (std::isfinite(frame.contact_mm)) {
       reference[0] = plan.contact_std_mm;
@@ -167,9 +170,11 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
       reference[0] = plan.object_std_mm;
     }
     const Eigen::MatrixXd by_reference =
-        at->by_contact * reference.asDiagonal();
-    GaugeError error{arc_mm, normal_N, at->error,
-                     at->by_factor * at->by_factor.transpose() +
+        std_rad * at->by_contact * reference.asDiagonal();
+    const Eigen::MatrixXd by_factor =
+        std_rad * calibration.ByParameter() * factor;
+    GaugeError error{arc_mm, normal_N, std_rad * at->residuals,
+                     by_factor * by_factor.transpose() +
                          by_reference * by_reference.transpose()};
     error.expected.diagonal() += weights.cwiseInverse().cwiseAbs2();
     errors->push_back(std::move(error));

@@ -6,10 +6,10 @@
 #include "finray/finger/gauge_play.h"
 
 namespace finray {
-
 ContactAccuracy::ContactAccuracy(const Finger& finger, double friction,
                                  const Discretization& discretization)
-    : solver_(finger, discretization), systematic_(finger, friction, &solver_) {
+    : solver_(finger, discretization),
+      systematic_(finger, Scene::OfGauges(friction), discretization) {
   const bool solved = solver_.Solve({});
   for (int j = 0; j < solver_.model().gauges(); ++j) {
     free_rad_.push_back(solved ? solver_.gauge_angle(j) : 0);
@@ -28,16 +28,18 @@ ContactStd ContactAccuracy::At(const std::vector<PointContact>& contacts) {
     return std;
   }
   Eigen::VectorXd weights(gauges);
-  std::vector<double> readings_V;
+  Measurements row;
   for (Eigen::Index j = 0; j < gauges; ++j) {
     const Gauge& gauge = finger.gauges[j];
     const double angle = solver_.gauge_angle(static_cast<int>(j));
     const double moved_V = gauge.Volts(angle) - gauge.Volts(free_rad_[j]);
+    row.gauges_V.push_back(gauge.Volts(angle));
+    row.history_std_V.push_back(PlayStd(gauge.HysteresisV(), moved_V));
     weights[j] =
-        std::abs(gauge.Slope(angle)) /
-        std::hypot(gauge.noise_V, PlayStd(gauge.HysteresisV(), moved_V));
-    readings_V.push_back(gauge.Volts(angle));
-    if (!gauge.IsInRange(readings_V.back())) weights[j] = 0;
+        gauge.IsMeasured(row.gauges_V.back())
+            ? std::abs(gauge.Slope(angle)) /
+                  row.GaugeStd_V(static_cast<std::size_t>(j), gauge.noise_V)
+            : 0;
   }
   const Eigen::MatrixXd slope =
       weights.asDiagonal() *
@@ -45,9 +47,8 @@ ContactStd ContactAccuracy::At(const std::vector<PointContact>& contacts) {
   const ContactMatrix noise = CovarianceOf(slope.transpose() * slope);
   std.noise = std.total = noise.diagonal().cwiseSqrt();
   if (systematic_.empty() || std::isinf(noise(0, 0))) return std;
-  std.total = (noise.diagonal() +
-               systematic_.Of(contacts, readings_V, weights).diagonal())
-                  .cwiseSqrt();
+  std.total =
+      (noise.diagonal() + systematic_.Of(contacts, row).diagonal()).cwiseSqrt();
   return std;
 }
 

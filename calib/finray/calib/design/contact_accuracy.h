@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "finray/sensing/calibration_uncertainty.h"
+#include "finray/fit/calibration_errors.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -22,7 +22,7 @@ struct ContactStd {
 ///   diag[(J'WJ)^-1 + C_sys],
 ///
 /// with the derivatives J of the gauges' angles by the contacts, and C_sys of
-/// the finger's calibration (CalibrationUncertainty). It is the linear part: it
+/// the finger's calibration (CalibrationErrors). It is the linear part: it
 /// holds where the std is small against the distance over which J changes.
 class ContactAccuracy {
  public:
@@ -35,7 +35,7 @@ class ContactAccuracy {
 
  private:
   EquilibriumSolver solver_;
-  CalibrationUncertainty systematic_;
+  CalibrationErrors systematic_;
   std::vector<double> free_rad_;  // gauge angles without a contact
 };
 

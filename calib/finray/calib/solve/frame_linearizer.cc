@@ -44,7 +44,7 @@ FrameFit::Frame FrameLinearizer::Prepare(const CalibrationFrame& frame,
                                          const std::array<double, 2>& contact) {
   contact_ = contact;
   FrameFit::Frame prepared;
-  prepared.contact = contact_.data();
+  prepared.contacts = contact_.data();
   if (!frame.IsBench()) {
     const RowFriction row = parameters_.FrictionOf(frame);
     const bool usual = FitsSurface(frame, parameters_);
@@ -56,14 +56,17 @@ FrameFit::Frame FrameLinearizer::Prepare(const CalibrationFrame& frame,
     }
     prepared.evaluation = &*evaluation;
   }
-  prepared.blocks = blocks_.Of(frame, prepared.evaluation, prepared.contact);
+  frame_blocks_ = blocks_.Of(frame, prepared.evaluation, prepared.contacts);
+  prepared.blocks = &frame_blocks_;
   return prepared;
 }
 
 bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
                                 const std::array<double, 2>& contact,
                                 const StartState& start, LinearizedFrame* out) {
-  return fit_.Linearize(Prepare(frame, contact), start, out);
+  if (!fit_.Linearize(Prepare(frame, contact), start, out)) return false;
+  out->Eliminate();
+  return true;
 }
 
 bool FrameLinearizer::FitContact(const CalibrationFrame& frame,

@@ -61,6 +61,7 @@ class FrameLinearizer {
   // friction of their own; and that of another frame.
   std::array<std::optional<FrameEvaluation>, 2> usual_;
   std::optional<FrameEvaluation> unusual_;
+  std::vector<FrameBlock> frame_blocks_;
   // In one place for all frames, so that their blocks have the same parameters.
   std::array<double, 2> contact_{};
 };

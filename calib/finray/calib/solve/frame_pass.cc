@@ -55,7 +55,7 @@ std::optional<ModelSurface> SurfaceFor(const std::vector<int>& frames,
   return std::make_optional<ModelSurface>(
       EquilibriumSolver(problem.finger(), problem.discretization()),
       parameters.shared, parameters.friction(), problem.plan().MovesGauges(),
-      resolution);
+      ModelSurface::Content{resolution});
 }
 
 // Makes the cells of the surface where the frames start, on the threads of the
@@ -74,8 +74,8 @@ void MakeCells(const std::vector<int>& frames, const Contacts& contacts,
 }
 
 FrameFit::StartState StatesOf(const ContactStore& contacts) {
-  return [&contacts](double arc_mm, double normal_N) {
-    return contacts.StateNear(arc_mm, normal_N);
+  return [&contacts](const double* contact, LadderState* state) {
+    *state = contacts.StateNear(contact[0], contact[1]);
   };
 }
 

@@ -1,5 +1,3 @@
-#include "finray/sensing/fast/frame_follower.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,15 +50,9 @@ void ExpectSame(const FrameEstimate& one, const FrameEstimate& other, int i) {
   }
 }
 
-// A fit that follows starts elsewhere than a search, so its last digits differ.
-bool Differ(const FrameEstimate& one, const FrameEstimate& other) {
-  return one.contact[0].arc_mm != other.contact[0].arc_mm ||
-         one.contact[0].normal_N != other.contact[0].normal_N;
-}
-
 // Readings of a finger with other gains and beams leave a chi2 that noise does
-// not reach. They are followed too, and come out as a search finds them.
-TEST(FrameFollowerTest, FramesThatNothingExplainsAgreeWithSearches) {
+// not reach.
+TEST(FollowedFramesTest, FramesThatNothingExplainsAgreeWithSearches) {
   Finger finger = PaperFinger();
   finger.front_stiffness_N_mm2 *= 1.03;
   double sign = 1;
@@ -76,7 +68,7 @@ TEST(FrameFollowerTest, FramesThatNothingExplainsAgreeWithSearches) {
       alone(finger, scene, {});
   std::vector<FrameEstimate> estimates(log.size());
   block.EstimateBlock(log.data(), log.size(), estimates.data());
-  int unexplained = 0, followed = 0;
+  int unexplained = 0;
   for (std::size_t i = 0; i < log.size(); ++i) {
     const int frame = static_cast<int>(i);
     const FrameEstimate searched = alone.Estimate(log[i]);
@@ -84,15 +76,11 @@ TEST(FrameFollowerTest, FramesThatNothingExplainsAgreeWithSearches) {
     ExpectSame(live.Next(log[i]), searched, frame);
     if (!(searched.p_value() < FrameEstimate::kUnexplained)) continue;
     ++unexplained;
-    followed += Differ(estimates[i], searched);
   }
-  std::printf("%d frames unexplained, at least %d of them followed\n",
-              unexplained, followed);
   EXPECT_GT(unexplained, 100);
-  EXPECT_GT(followed, 50);
 }
 
-TEST(FrameFollowerTest, BlocksAndLiveFramesAgreeWithSearches) {
+TEST(FollowedFramesTest, BlocksAndLiveFramesAgreeWithSearches) {
   for (const double noise : {1e-4, 3e-4}) {
     Finger finger = PaperFinger();
     for (Gauge& gauge : finger.gauges) gauge.noise_V = noise;
@@ -104,45 +92,13 @@ TEST(FrameFollowerTest, BlocksAndLiveFramesAgreeWithSearches) {
     for (std::size_t i = 0; i < log.size(); i += 64) {
       block.EstimateBlock(&log[i], 64, &estimates[i]);
     }
-    int followed = 0;
     for (std::size_t i = 0; i < log.size(); ++i) {
       const int frame = static_cast<int>(i);
       const FrameEstimate searched = alone.Estimate(log[i]);
       ExpectSame(estimates[i], searched, frame);
       ExpectSame(live.Next(log[i]), searched, frame);
-      followed += Differ(estimates[i], searched);
-    }
-    std::printf("noise %g rad: at least %d of %zu frames followed\n", noise,
-                followed, log.size());
-    EXPECT_GT(followed, 100);
-  }
-}
-
-// Two gauges leave no degree of freedom and so no p-value.
-TEST(FrameFollowerTest, FollowsWithTwoGauges) {
-  Finger finger = PaperFinger();
-  finger.gauges.resize(2);
-  EquilibriumSolver solver(finger, {});
-  std::vector<Measurements> log(64);
-  for (int i = 0; i < 64; ++i) {
-    ASSERT_TRUE(solver.Solve({{60 + 0.1 * i, 3, 0}}));
-    for (int j = 0; j < 2; ++j) {
-      log[i].gauges_V.push_back(solver.gauge_angle(j));
     }
   }
-  FrameEstimator block(finger, {}, {}), alone(finger, {}, {});
-  std::vector<FrameEstimate> estimates(log.size());
-  block.EstimateBlock(log.data(), log.size(), estimates.data());
-  int shorter = 0, ok = 0;
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    const FrameEstimate searched = alone.Estimate(log[i]);
-    ExpectSame(estimates[i], searched, static_cast<int>(i));
-    ok += searched.status == FrameStatus::kOk;
-    shorter += estimates[i].iterations < searched.iterations;
-  }
-  std::printf("two gauges: %d ok, %d followed\n", ok, shorter);
-  EXPECT_GT(ok, 32);
-  EXPECT_GT(shorter, ok / 2);
 }
 
 }  // namespace
