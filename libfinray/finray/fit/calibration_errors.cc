@@ -218,8 +218,8 @@ CalibrationErrors::~CalibrationErrors() = default;
 void CalibrationErrors::SetErrors(const ParameterCovariance& calibration) {
   Model& m = *model_;
   m.finger.calibration = calibration;
-  // Whether the friction counts as the calibration's is settled: the columns
-  // have its effects.
+  // The columns have the effects of the first calibration, so its friction
+  // still decides whether the scene's counts as one of them.
   m.finger.calibration->friction =
       m.of_calibration ? m.scene.friction_coefficient : kNaN;
   m.finger = ForFriction(m.finger, m.scene.friction());

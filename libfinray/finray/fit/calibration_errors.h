@@ -10,9 +10,9 @@
 
 namespace finray {
 
-/// What errors of a finger's parameters p do to the contacts x = (l_c, f_c of
-/// each) of a frame. An estimate minimises the blocks r(x, p) of its row
-/// (frame_blocks.h), so that up to terms proportional to r
+/// Computes the covariance that errors of a finger's parameters p add to the
+/// contacts x = (l_c, f_c of each) of a frame. An estimate minimises the blocks
+/// r(x, p) of its row (frame_blocks.h), so that up to terms proportional to r
 ///
 ///   dx/dp = -(E'E)^-1 E'C,   C_sys = (dx/dp) C_pp (dx/dp)',
 ///
@@ -56,8 +56,8 @@ class CalibrationErrors {
 
   /// C_sys at the contacts of a row. The diagonal is infinite if the
   /// measurements do not determine the contacts (for example without force).
-  /// For one contact, it solves no equilibrium where the surface serves, and
-  /// allocates nothing once it is warm.
+  /// For one contact, it solves no equilibrium where the surface serves.
+  /// Without a discrepancy it allocates nothing once it is warm.
   ContactMatrix Of(const std::vector<PointContact>& contacts,
                    const Measurements& row);
 

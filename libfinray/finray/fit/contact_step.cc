@@ -106,7 +106,7 @@ void UpdateCurvature(const ContactVector& step, const ContactVector& before,
     bent += (behind[k] - mixed[k]) * step[k];
   }
   if (!(along > 0)) return;
-  // What is known shrinks with the residuals.
+  // B is proportional to the residuals, so the old one shrinks as they do.
   const double size =
       told == 0 ? 0 : std::min(1.0, std::abs(bent) / std::abs(told));
   double missed = 0;

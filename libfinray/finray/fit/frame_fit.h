@@ -32,7 +32,8 @@ namespace finray {
 /// same blocks allocates nothing once it has fitted one. Each thread has one.
 class FrameFit {
  public:
-  /// What frames share. All that is pointed to must stay in place.
+  /// The parts of the problem that all frames share. The objects that it points
+  /// to must stay in place.
   struct Shared {
     const SharedParameters* parameters = nullptr;
     /// The first column of a parameter block in LinearizedFrame::by_parameter,
@@ -145,8 +146,8 @@ class FrameFit {
   Shared shared_;
   std::vector<KnownBlock> known_;  // by index of the block
 
-  // Of the fit under way: where solves start, and whether the last evaluation
-  // needed one.
+  // These belong to the fit under way. near_ is where its next solve starts, if
+  // is_near_; reached_ is where the last one ended, unless by_surface_.
   const StartState* start_ = nullptr;
   bool is_near_ = false, by_surface_ = false;
   LadderState near_, reached_;

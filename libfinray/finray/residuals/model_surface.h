@@ -18,15 +18,15 @@ namespace finray {
 /// same values, this takes a fraction of the time of their equilibria.
 class ModelSurface {
  public:
-  /// What a surface holds.
+  /// The groups of values of a surface, and how exact they are.
   struct Content {
-    /// What the outputs [gauge angles (m); contact (x, y, theta); tip (x, y,
-    /// theta)] may leave out. It may end before the contact or before the tip,
-    /// which are then no outputs.
+    /// The errors that the outputs [gauge angles (m); contact (x, y, theta);
+    /// tip (x, y, theta)] may have. The vector may end before the contact or
+    /// before the tip, which are then no outputs.
     Eigen::VectorXd resolution;
     /// The derivatives by the parameters.
     bool by_parameter = true;
-    /// What ShapeAt gives.
+    /// The poses and tensions that ShapeAt returns.
     bool shape = false;
     /// No load is heavier; empty for 40 EI / l_0^2.
     std::optional<double> heaviest_N = {};

@@ -45,9 +45,6 @@ class GaugeSurface {
            double most_force_N, const PointContact& start,
            ContactSolution* solution) const;
 
-  /// Makes what fits would make when they first need it.
-  void Prepare() const { surface_.MakeAll(); }
-
   /// Finds s_j under a load. Returns false off the surface.
   bool ValuesAt(double arc_mm, double normal_N, Eigen::VectorXd* values) const;
 
