@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
-#include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/row_fit.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -32,23 +33,25 @@ TEST(NoiseFloorTest, IsWhatNoisyFitsAreOffBy) {
   EXPECT_NEAR(floor.gauge_rad, kNoise_rad, 1e-12);
 
   EquilibriumSolver solver(finger, {});
-  ContactFit fit(finger, {});
+  RowFit fit(finger, c.scene, {}, nullptr,
+             std::numeric_limits<double>::infinity());
+  ContactSolution found;
   std::mt19937_64 generator(3);
   std::normal_distribution<double> noise(0, kNoise_rad);
   double arc = 0, normal = 0;
   int fits = 0;
   for (std::size_t k = 0; k < c.frames.size(); ++k) {
-    Eigen::VectorXd readings = c.forward[k].gauges_rad;
-    for (double& angle : readings) angle += noise(generator);
+    Measurements row;
+    for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+      const double angle =
+          c.forward[k].gauges_rad[static_cast<Eigen::Index>(j)];
+      row.gauges_V.push_back(finger.gauges[j].Volts(angle + noise(generator)));
+    }
     const PointContact truth = c.frames[k].contacts[0];
-    std::vector<PointContact> found = {truth};
-    ASSERT_TRUE(solver.Solve(found));
-    fit.set_state(solver.state());
-    const Eigen::VectorXd weights =
-        Eigen::VectorXd::Constant(readings.size(), 1 / kNoise_rad);
-    ASSERT_TRUE(fit.Fit(readings, weights, &found));
-    arc += std::pow(found[0].arc_mm - truth.arc_mm, 2);
-    normal += std::pow(found[0].normal_N - truth.normal_N, 2);
+    fit.set_row(row);
+    ASSERT_TRUE(fit.FitFrom({truth}, &solver, &found));
+    arc += std::pow(found.contacts[0].arc_mm - truth.arc_mm, 2);
+    normal += std::pow(found.contacts[0].normal_N - truth.normal_N, 2);
     ++fits;
   }
   // The rms of 520 values is good to a twentieth or so.

@@ -10,22 +10,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "finray/chain/sensing.h"
 #include "finray/ladder/instruction_set.h"
-#include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/frame_problem.h"
-#include "finray/sensing/gauge_surface.h"
 #include "finray/sensing/gauge_table.h"
+#include "finray/sensing/row_fit.h"
 #include "sensing/gauge_log.h"
-#include "test_finger.h"
 
 namespace finray {
 namespace {
 
-constexpr double kTolerance = 1e-5;
 constexpr int kFrames = 4160;  // once there and back
 
 const GaugeLog& TheLog() {
@@ -84,76 +83,69 @@ void Run(benchmark::State& state, int frames, Restart restart, Fit fit) {
       static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-// `follow`: from what the last linearisation makes of the readings.
-void Alone(benchmark::State& state, const Discretization& discretization,
-           double tolerance, bool follow) {
-  ContactFit fit(PaperFinger(), discretization);
-  fit.set_tolerance(tolerance);
-  std::vector<PointContact> contacts(1);
-  Eigen::VectorXd angles(4);
-  const Eigen::VectorXd weights = TheLog().weights.col(0);
-  const LadderState first = TheLog().StateAt(discretization, 0);
+// Each fit starts from the contact of the frame before and, without a surface,
+// from its equilibrium.
+void Fits(benchmark::State& state, const Discretization& discretization,
+          RowFit::Model model) {
+  const GaugeLog& log = TheLog();
+  const double most_N = GaugeTable::HeaviestForce_N(log.finger);
+  std::optional<ModelSurface> surface;
+  if (model == RowFit::Model::kSurface) {
+    surface.emplace(
+        RowFit::SurfaceFor(log.finger, Scene(), discretization, most_N));
+  }
+  RowFit fit(log.finger, Scene(), discretization, surface ? &*surface : nullptr,
+             most_N);
+  const LadderState first = log.StateAt(discretization, 0);
+  LadderState near;
+  ContactStart start;
+  start.count = 1;
+  start.state = &near;
+  ContactSolution found;
   Run(
       state, kFrames,
       [&] {
-        contacts[0] = TheLog().truth[0];
-        fit.set_state(first);
+        start.contacts[0] = log.truth[0];
+        near = first;
       },
       [&](int i, PointContact* contact) {
-        angles = TheLog().angles.col(i);
-        const bool fitted = follow ? fit.Follow(angles, weights, &contacts)
-                                   : fit.Fit(angles, weights, &contacts);
-        if (!fitted) state.SkipWithError("lost");
-        *contact = contacts[0];
-      });
-}
-
-void OnSurface(benchmark::State& state, const Discretization& discretization) {
-  const double most_N = GaugeTable::HeaviestForce_N(PaperFinger());
-  const GaugeSurface surface(EquilibriumSolver(PaperFinger(), discretization),
-                             0, {}, most_N);
-  ContactSolution solution;
-  PointContact last;
-  Run(
-      state, kFrames, [&] { last = TheLog().truth[0]; },
-      [&](int i, PointContact* contact) {
-        if (!surface.Fit(TheLog().angles.col(i), TheLog().weights.col(i),
-                         most_N, last, &solution)) {
+        fit.set_row(log.rows[i]);
+        if (!fit.Fit(start, model, RowFit::kMostEvaluations, &found)) {
           state.SkipWithError("lost");
         }
-        *contact = last = solution.contacts[0];
+        if (!surface) std::swap(near, found.state);
+        *contact = start.contacts[0] = found.contacts[0];
       });
 }
 
 void Ceres(benchmark::State& state) {
-  Finger finger = PaperFinger();
-  for (Gauge& gauge : finger.gauges) gauge.noise_V = GaugeLog::kNoise_rad;
-  FrameProblem problem(finger, Scene(), {}, EquilibriumForm::kReduced, 100);
+  const GaugeLog& log = TheLog();
+  FrameProblem problem(log.finger, Scene(), {}, EquilibriumForm::kReduced, 100);
   ContactSolution solution;
-  Measurements row;
   Run(
       state, 400,
       [&] {
-        solution.contacts[0] = TheLog().truth[0];
-        solution.state = TheLog().StateAt({}, 0);
+        solution.contacts[0] = log.truth[0];
+        solution.state = log.StateAt({}, 0);
       },
       [&](int i, PointContact* out) {
-        row.gauges_V.assign(TheLog().angles.col(i).begin(),
-                            TheLog().angles.col(i).end());
-        const LadderState state = solution.state;
-        problem.Fit({1, solution.contacts, 0, &state}, row, &solution);
+        const LadderState near = solution.state;
+        problem.Fit({1, solution.contacts, 0, &near}, log.rows[i], &solution);
         *out = solution.contacts[0];
       });
 }
 
 void Paper(benchmark::State& state, int joints) {
+  const GaugeLog& log = TheLog();
   const ChainLayout layout =
-      MakeChainLayout(PaperFinger(), joints, GaugeRule::kOverlap);
+      MakeChainLayout(log.finger, joints, GaugeRule::kOverlap);
   PointContact contact;
   Run(
-      state, 50, [&] { contact = TheLog().truth[0]; },
+      state, 50, [&] { contact = log.truth[0]; },
       [&](int i, PointContact* out) {
-        contact = SenseContact(layout, TheLog().angles.col(i), contact).contact;
+        const Eigen::Map<const Eigen::Vector4d> angles(
+            log.rows[i].gauges_V.data());
+        contact = SenseContact(layout, angles, contact).contact;
         *out = contact;
       });
 }
@@ -215,30 +207,28 @@ void Register() {
   for (const int n : {100, 200, 400}) {
     const Discretization chain{Scheme::kRigidChain, n};
     add(name("chain, linear", chain), [=](benchmark::State& state) {
-      Alone(state, chain, kTolerance, true);
+      Fits(state, chain, RowFit::Model::kEquilibria);
     });
   }
-  const Discretization paper_like{Scheme::kTaylor8, 12};
-  add(name("without prediction", paper_like), [=](benchmark::State& state) {
-    Alone(state, paper_like, kTolerance, false);
-  });
   add("to rounding, taylor 12", [=](benchmark::State& state) {
-    Alone(state, {Scheme::kTaylor, 12}, 1e-12, true);
+    Fits(state, {Scheme::kTaylor, 12}, RowFit::Model::kRounding);
   });
   const Discretization all[] = {{Scheme::kTaylor4, 12}, {Scheme::kTaylor4, 24},
                                 {Scheme::kTaylor4, 48}, {Scheme::kTaylor8, 12},
                                 {Scheme::kTaylor8, 24}, {Scheme::kTaylor12, 12},
                                 {Scheme::kTaylor, 12}};
   for (const Discretization& one : all) {
-    add(name("alone", one),
-        [=](benchmark::State& state) { Alone(state, one, kTolerance, true); });
+    add(name("equilibria", one), [=](benchmark::State& state) {
+      Fits(state, one, RowFit::Model::kEquilibria);
+    });
   }
   // With one element a bay. Inside a bay the nodes of a coarse mesh are kinks,
   // and the time does not depend on the mesh.
   for (const Discretization& one : all) {
     if (one.resolution != 12) continue;
-    add(name("surface", one),
-        [=](benchmark::State& state) { OnSurface(state, one); });
+    add(name("surface", one), [=](benchmark::State& state) {
+      Fits(state, one, RowFit::Model::kSurface);
+    });
   }
 }
 

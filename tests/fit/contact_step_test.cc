@@ -56,62 +56,34 @@ TEST(BoundedChangeTest, IsTheLeastInTheBox) {
   EXPECT_GT(at_bounds, 10);
 }
 
-// Two angles that are quadratic in x. The sums are those of chi2 / 2: its
-// gradient and its Hessian A + B by differences.
-TEST(CurvedSumsTest, AreTheDerivativesOfChi2) {
-  constexpr double kWeights[2] = {3, 0.7};
-  constexpr double kSecond[2][3] = {{1.3, -0.4, 0.2}, {0.6, 0.9, -0.5}};
-  const auto angle = [&](int j, double l, double f) {
-    const double* h = kSecond[j];
-    return 0.1 + (1 + j) * l - (2 - j) * f +
-           (h[0] * l * l + 2 * h[1] * l * f + h[2] * f * f) / 2;
+// r = (x^2 + y, 2 y) / 10 - 1 in x and y: with two contacts' worth of steps,
+// the secant B maps the last step to the change of the slopes, times r.
+TEST(UpdateCurvatureTest, MapsTheStepToTheChangeOfTheSlopes) {
+  const auto residuals = [](const ContactVector& x) {
+    return Eigen::Vector2d(x[0] * x[0] / 10 + x[1] / 10 - 1, x[1] / 5 - 1);
   };
-  const auto half_chi2 = [&](double l, double f) {
-    double sum = 0;
-    for (int j = 0; j < 2; ++j) {
-      const double off = kWeights[j] * angle(j, l, f);
-      sum += off * off / 2;
-    }
-    return sum;
+  const auto slopes = [](const ContactVector& x) {
+    Eigen::Matrix2d s;
+    s << x[0] / 5, 0.1, 0, 0.2;
+    return s;
   };
-  const double l = 0.3, f = 0.2, step = 1e-4;
-  CurvedSums sums;
-  for (int j = 0; j < 2; ++j) {
-    const double* h = kSecond[j];
-    sums.Add(kWeights[j], angle(j, l, f), 1 + j + h[0] * l + h[1] * f,
-             j - 2 + h[1] * l + h[2] * f, h[0], h[1], h[2]);
+  const auto gradient = [&](const ContactVector& s, const ContactVector& r) {
+    return ContactVector(slopes(s).transpose() * residuals(r));
+  };
+  ContactMatrix curvature = ContactMatrix::Zero(2, 2);
+  ContactVector from(2), to(2);
+  from << 3.5, 2.1;
+  for (const auto& [x, y] : {std::pair(3.3, 2.3), std::pair(3.2, 2.7)}) {
+    to << x, y;
+    const ContactVector step = to - from;
+    UpdateCurvature(step, gradient(from, from), gradient(from, to),
+                    gradient(to, to), &curvature);
+    const Eigen::Vector2d expected =
+        (slopes(to) - slopes(from)).transpose() * residuals(to);
+    EXPECT_LT((curvature * step - expected).norm(), 1e-12);
+    EXPECT_NEAR(curvature(0, 1), curvature(1, 0), 1e-15);
+    from = to;
   }
-  const ContactEquations equations = sums.Equations();
-  ASSERT_EQ(equations.curvature.rows(), 2);
-  const ContactMatrix hessian = equations.normal + equations.curvature;
-  const auto at = [&](int i, int j) {
-    return half_chi2(l + i * step, f + j * step);
-  };
-  EXPECT_NEAR(equations.chi2, 2 * at(0, 0), 1e-12);
-  EXPECT_NEAR(equations.gradient[0], (at(1, 0) - at(-1, 0)) / (2 * step), 1e-6);
-  EXPECT_NEAR(equations.gradient[1], (at(0, 1) - at(0, -1)) / (2 * step), 1e-6);
-  const double square = step * step;
-  EXPECT_NEAR(hessian(0, 0), (at(1, 0) - 2 * at(0, 0) + at(-1, 0)) / square,
-              1e-5);
-  EXPECT_NEAR(hessian(1, 1), (at(0, 1) - 2 * at(0, 0) + at(0, -1)) / square,
-              1e-5);
-  const double across =
-      (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / (4 * square);
-  EXPECT_NEAR(hessian(0, 1), across, 1e-5);
-  EXPECT_EQ(hessian(0, 1), hessian(1, 0));
-}
-
-// Where A + B is not positive, a step by it may lead uphill.
-TEST(CurvedSumsTest, LeaveOutACurvatureThatTurnsTheBowlOver) {
-  // A is the unit matrix, B is -0.5 and `across` beside the diagonal.
-  const auto equations = [](double across) {
-    CurvedSums sums;
-    sums.Add(1, 1, 1, 0, -0.5, across, -0.5);
-    sums.Add(1, 0, 0, 1, 0, 0, 0);
-    return sums.Equations();
-  };
-  EXPECT_EQ(equations(0).curvature.rows(), 2);
-  EXPECT_EQ(equations(0.6).curvature.size(), 0);
 }
 
 // A force that the gauges do not see goes to its bound and leaves the place to

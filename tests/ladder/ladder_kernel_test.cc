@@ -147,9 +147,9 @@ TEST(LadderKernelTest, DerivativesByManyContactsAreRefused) {
   std::vector<PointContact> contacts;
   for (int c = 0; c < 6; ++c) contacts.push_back({20.0 + 15 * c, 0.5, 0});
   ASSERT_TRUE(newton.Converge(contacts, 1, SweepColumns::kNone));
-  EXPECT_FALSE(newton.Linearize(contacts, 1, SweepColumns::kContacts));
+  EXPECT_FALSE(newton.Converge(contacts, 1, SweepColumns::kContacts));
   contacts.resize(kFittedContacts);
-  EXPECT_TRUE(newton.Linearize(contacts, 1, SweepColumns::kContacts));
+  EXPECT_TRUE(newton.Converge(contacts, 1, SweepColumns::kContacts));
 }
 
 TEST(LadderKernelTest, InstructionSetsAgree) {

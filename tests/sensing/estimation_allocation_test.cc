@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "count_allocations.h"
-#include "finray/sensing/fast/contact_fit.h"
-#include "finray/sensing/gauge_surface.h"
 #include "finray/sensing/gauge_table.h"
+#include "finray/sensing/row_fit.h"
 #include "sensing/gauge_log.h"
 
 namespace finray {
@@ -16,38 +17,41 @@ namespace {
 TEST(SensingAllocationTest, WarmFitsTakeNone) {
   GaugeLog log(600);
   // Some frames jump.
-  for (int i = 100; i < 600; i += 97) log.angles.col(i) *= 1.5;
+  for (std::size_t i = 100; i < log.rows.size(); i += 97) {
+    for (double& volts : log.rows[i].gauges_V) volts *= 1.5;
+  }
+  const double most_N = GaugeTable::HeaviestForce_N(log.finger);
   for (const Scheme scheme : {Scheme::kTaylor8, Scheme::kTaylor}) {
     const Discretization discretization{scheme, 12};
-    ContactFit fit(PaperFinger(), discretization);
-    fit.set_tolerance(1e-5);
-    fit.set_state(log.StateAt(discretization, 0));
-    std::vector<PointContact> contacts = {log.truth[0]};
-    Eigen::VectorXd angles(4), weights(4);
-    long before = 0;
-    for (int i = 0; i < 600; ++i) {
-      if (i == 100) before = allocations;
-      angles = log.angles.col(i);
-      weights = log.weights.col(i);
-      ASSERT_TRUE(fit.Follow(angles, weights, &contacts));
-    }
-    EXPECT_EQ(allocations - before, 0);
-
-    const double most_N = GaugeTable::HeaviestForce_N(PaperFinger());
-    const GaugeSurface surface(EquilibriumSolver(PaperFinger(), discretization),
-                               0, {}, most_N);
-    ContactSolution solution;
-    // The first round makes the cells of the surface.
-    for (int round = 0; round < 2; ++round) {
-      before = allocations;
-      PointContact last = log.truth[0];
-      for (int i = 0; i < 600; ++i) {
-        ASSERT_TRUE(surface.Fit(log.angles.col(i), log.weights.col(i), most_N,
-                                last, &solution));
-        last = solution.contacts[0];
+    const ModelSurface surface =
+        RowFit::SurfaceFor(log.finger, Scene(), discretization, most_N);
+    RowFit fit(log.finger, Scene(), discretization, &surface, most_N);
+    const LadderState first = log.StateAt(discretization, 0);
+    LadderState near;
+    ContactStart start;
+    start.count = 1;
+    start.state = &near;
+    ContactSolution found;
+    for (const RowFit::Model model :
+         {RowFit::Model::kSurface, RowFit::Model::kEquilibria}) {
+      long before = 0;
+      // The first round takes what is needed, the cells of the surface too.
+      for (int round = 0; round < 2; ++round) {
+        before = allocations;
+        start.contacts[0] = log.truth[0];
+        near = first;
+        for (const Measurements& row : log.rows) {
+          fit.set_row(row);
+          ASSERT_TRUE(fit.Fit(start, model, RowFit::kMostEvaluations, &found));
+          start.contacts[0] = found.contacts[0];
+          if (model == RowFit::Model::kEquilibria) {
+            std::swap(near, found.state);
+          }
+        }
       }
+      EXPECT_EQ(allocations - before, 0)
+          << (model == RowFit::Model::kSurface ? "surface" : "equilibria");
     }
-    EXPECT_EQ(allocations - before, 0);
   }
 }
 

@@ -12,6 +12,8 @@ namespace {
 // the Hessian of chi2 and positive, and damping would only slow the fit down.
 constexpr double kArcDamping = 22;
 constexpr double kForceDamping = 1e-9;
+// A force counts as at least this large when its changes are compared.
+constexpr double kSmallForce = 0.02;
 // A bound is met or left at most so often for each component.
 constexpr int kMostPasses = 4;
 
@@ -56,39 +58,6 @@ void SolvePositive(ContactMatrix* a, ContactVector* b) {
 }
 
 }  // namespace
-
-void CurvedSums::Add(double weight, double angle, double by_arc,
-                     double by_force, double by_arc_arc, double by_arc_force,
-                     double by_force_force) {
-  const double square = weight * weight, off = square * angle;
-  chi2_ += off * angle;
-  gradient_[0] += off * by_arc;
-  gradient_[1] += off * by_force;
-  normal_[0] += square * by_arc * by_arc;
-  normal_[1] += square * by_arc * by_force;
-  normal_[2] += square * by_force * by_force;
-  curvature_[0] += off * by_arc_arc;
-  curvature_[1] += off * by_arc_force;
-  curvature_[2] += off * by_force_force;
-}
-
-ContactEquations CurvedSums::Equations() const {
-  // A smaller share of the product of the diagonal may be rounding.
-  constexpr double kLeastDeterminant = 1e-9;
-  const auto matrix = [](const double* of) {
-    ContactMatrix m(2, 2);
-    m << of[0], of[1], of[1], of[2];
-    return m;
-  };
-  ContactEquations equations{matrix(normal_), ContactVector(2), chi2_};
-  equations.gradient << gradient_[0], gradient_[1];
-  const double ll = normal_[0] + curvature_[0], lf = normal_[1] + curvature_[1],
-               ff = normal_[2] + curvature_[2];
-  if (ll > 0 && ff > 0 && ll * ff - lf * lf > kLeastDeterminant * ll * ff) {
-    equations.curvature = matrix(curvature_);
-  }
-  return equations;
-}
 
 void UpdateCurvature(const ContactVector& step, const ContactVector& before,
                      const ContactVector& mixed, const ContactVector& behind,
@@ -189,50 +158,13 @@ double ArcShare(double normal, double by) {
   return normal > 0 ? normal / std::max(normal / kMost, normal + by) : 1;
 }
 
-bool MoveContact(const BeamMesh& mesh, const double* change, double length_unit,
-                 double force_unit, double* arc_mm, double* normal_N) {
-  const int before = mesh.Locate(*arc_mm).element;
-  *arc_mm = std::clamp(*arc_mm + change[0] * length_unit, 0.0, length_unit);
-  *normal_N = std::max(0.0, *normal_N + change[1] * force_unit);
-  return mesh.Locate(*arc_mm).element != before;
-}
-
-ContactMatrix InformationOf(ContactMatrix normal, double length_unit,
-                            double force_unit) {
-  for (Eigen::Index k = 0; k < normal.rows(); ++k) {
-    const double unit = k % 2 == 0 ? length_unit : force_unit;
-    normal.row(k) /= unit;
-    normal.col(k) /= unit;
-  }
-  return normal;
-}
-
-double LargestChange(const ContactVector& change, const ContactVector& x,
-                     double shape) {
-  double largest = shape;
+double LargestChange(const ContactVector& change, const ContactVector& x) {
+  double largest = 0;
   for (int k = 0; k < change.size(); ++k) {
     const double unit = k % 2 == 0 ? 1 : x[k] + kSmallForce;
     largest = std::max(largest, std::abs(change[k]) / unit);
   }
   return largest;
-}
-
-double CurvatureRate(const ContactEquations& equations, double damping,
-                     const ContactVector& by_residual,
-                     const ContactVector& step, const ContactVector& x) {
-  const double size = LargestChange(step, x, 0);
-  if (size == 0) return 0;
-  ContactMatrix system = Damped(equations, damping);
-  ContactVector change = (system - equations.normal) * step - by_residual;
-  SolvePositive(&system, &change);
-  return LargestChange(change, x, 0) / size;
-}
-
-bool IsLastChange(double now, double before, double rate, bool crossed,
-                  double tolerance) {
-  const double ratio = now / before;
-  const double shrinks = kDoubt * (rate + ratio * ratio);
-  return now * (crossed ? 1.0 : std::min(1.0, shrinks)) < tolerance;
 }
 
 }  // namespace finray

@@ -74,7 +74,7 @@ Step NextStep(ContactEquations equations, const ContactVector& x,
               ContactMatrix* curvature, bool* last) {
   const auto is_small = [&](const Step& step) {
     return !(step.decrease > ending.small_decrease) &&
-           LargestChange(step.change, x, 0) < ending.small_change;
+           LargestChange(step.change, x) < ending.small_change;
   };
   // Where the way there does not matter, a zero keeps the step from staying
   // near, as it does where B is unknown.
@@ -116,7 +116,7 @@ bool FrameFit::Linearize(const Frame& frame, const StartState& start,
 
 void FrameFit::Begin(const StartState& start) {
   start_ = &start;
-  is_near_ = false;
+  is_near_ = solver_is_near_ = false;
   evaluations_ = 0;
 }
 
@@ -222,7 +222,9 @@ ContactVector FrameFit::UnitOf(int unknowns) const {
 }
 
 void FrameFit::Stay(const Frame& frame) {
-  if (frame.evaluation != nullptr && !by_surface_) std::swap(near_, reached_);
+  if (frame.evaluation == nullptr || by_surface_) return;
+  std::swap(near_, reached_);
+  solver_is_near_ = true;
 }
 
 bool FrameFit::Solve(const Frame& frame) {
@@ -235,8 +237,16 @@ bool FrameFit::Solve(const Frame& frame) {
     if (near_.q.size() == 0) solver_.Reset();
   }
   FrameEvaluation& evaluation = *frame.evaluation;
-  evaluation.set_state(
-      near_.q.size() > 0 ? near_ : LadderState::Undeformed(solver_.model()));
+  // Where the solver is there already, it knows the way on.
+  if (solver_is_near_) {
+    evaluation.StartFromSolver();
+  } else if (near_.q.size() > 0) {
+    evaluation.set_state(near_);
+  } else {
+    evaluation.set_state(LadderState::Undeformed(solver_.model()));
+  }
+  solver_is_near_ = false;
+  evaluation.set_by_parameter(shared_.columns > 0);
   const SharedParameters& at = *shared_.parameters;
   evaluation.PlaceGauges(at.gauge_starts_mm.data(), at.gauge_lengths_mm.data());
   evaluation.Update(frame.contacts, at.ln_front_stiffness, at.ln_back_stiffness,

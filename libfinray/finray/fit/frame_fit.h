@@ -150,6 +150,7 @@ class FrameFit {
   // is_near_; reached_ is where the last one ended, unless by_surface_.
   const StartState* start_ = nullptr;
   bool is_near_ = false, by_surface_ = false;
+  bool solver_is_near_ = false;  // the solver is at near_
   LadderState near_, reached_;
   int evaluations_ = 0;
   bool converged_ = false;

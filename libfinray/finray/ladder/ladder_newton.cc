@@ -48,6 +48,7 @@ void LadderNewton::Reset() {
 }
 
 void LadderNewton::Load(const LadderState& state) {
+  tangent_of_.clear();
   if (state.q.size() != model_.unknowns() || state.nodes[0].cols() == 0 ||
       state.nodes[1].cols() == 0) {
     throw InputError("the state is not one of finger '" + model_.finger().name +
@@ -68,6 +69,7 @@ void LadderNewton::Load(const LadderState& state) {
 
 bool LadderNewton::SetLoad(const std::vector<PointContact>& contacts,
                            double fraction, SweepColumns columns, bool open) {
+  tangent_of_.clear();
   if (!workspace_.SetContacts(model_, contacts, fraction, columns, open)) {
     return false;
   }
@@ -77,6 +79,9 @@ bool LadderNewton::SetLoad(const std::vector<PointContact>& contacts,
 
 bool LadderNewton::Converge(const std::vector<PointContact>& contacts,
                             double fraction, SweepColumns columns) {
+  if (columns == SweepColumns::kContacts && contacts.size() > kFittedContacts) {
+    return false;
+  }
   const LadderFrame<double>& f = frame();
   turn_ = 0;
   longest_run_ = 0;
@@ -91,7 +96,9 @@ bool LadderNewton::Converge(const std::vector<PointContact>& contacts,
     turn_ += turn;
     longest_run_ = std::max(longest_run_, iterations_ - before);
     const MeshChange change = RefineMesh();
-    if (change != MeshChange::kRefined) return change == MeshChange::kNone;
+    if (change == MeshChange::kRefined) continue;
+    if (columns == SweepColumns::kContacts) tangent_of_ = contacts;
+    return change == MeshChange::kNone;
   }
   return false;
 }
@@ -117,6 +124,11 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
     const SweepColumns now = maybe_last ? columns : SweepColumns::kNone;
     workspace_.SetColumns(now, false);
     if (!kernel_->sweep(f, now, maybe_last)) return false;
+    if (now == SweepColumns::kContacts) {
+      std::fill_n(f.change, 2 * f.contact_count, 0);
+      f.newton = 1;
+      kernel_->combine(f);
+    }
     const double size = Size(1, 0);
     if (!std::isfinite(size)) return false;
     // The residual may grow for a while, but from far above Newton does not
@@ -162,23 +174,35 @@ bool LadderNewton::Evaluate(const std::vector<PointContact>& contacts) {
   return std::isfinite(frame().residual);
 }
 
-bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
-                             double fraction, SweepColumns columns) {
+bool LadderNewton::FollowTangent(const std::vector<PointContact>& contacts) {
   static_assert(7 + 2 * kFittedContacts <= kMostNodeColumns);
-  const bool by_contacts = columns == SweepColumns::kContacts;
-  if (by_contacts && contacts.size() > kFittedContacts) return false;
-  if (!SetLoad(contacts, fraction, columns)) return false;
+  if (tangent_of_.empty() || tangent_of_.size() != contacts.size()) {
+    return false;
+  }
   LadderFrame<double>& f = workspace_.frame();
-  ++iterations_;
-  kernel_->evaluate(f, columns, false);
-  return std::isfinite(f.residual) && kernel_->sweep(f, columns, by_contacts);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const PointContact &to = contacts[c], &from = tangent_of_[c];
+    if (to.side != from.side) return false;
+    f.change[2 * c] = (to.arc_mm - from.arc_mm) / workspace_.length_unit();
+    f.change[2 * c + 1] =
+        (to.normal_N - from.normal_N) / workspace_.force_unit();
+  }
+  f.newton = 0;
+  kernel_->combine(f);
+  if (!(Size(1, 0) < kMaxTurn_rad)) return false;
+  Move(1, 0);
+  tangent_of_.clear();
+  return true;
 }
 
-void LadderNewton::StepWithContacts(double newton, const double* change) {
+bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
+                             double fraction) {
+  if (!SetLoad(contacts, fraction, SweepColumns::kLoad)) return false;
   LadderFrame<double>& f = workspace_.frame();
-  std::copy_n(change, 2 * f.contact_count, f.change);
-  f.newton = newton;
-  kernel_->combine(f);
+  ++iterations_;
+  kernel_->evaluate(f, SweepColumns::kLoad, false);
+  return std::isfinite(f.residual) &&
+         kernel_->sweep(f, SweepColumns::kLoad, false);
 }
 
 void LadderNewton::Move(double a, double b) {

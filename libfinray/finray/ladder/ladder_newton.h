@@ -41,9 +41,16 @@ class LadderNewton {
   /// Solves at `fraction` of the load (forces and prestress). Returns false if
   /// it does not converge; the state is then undefined. Afterwards taps and
   /// q_step of the frame hold the derivatives `columns`, and `step` holds the
-  /// last step, which is already added to the state.
+  /// last step, which is already added to the state. kContacts is for at most
+  /// kFittedContacts.
   bool Converge(const std::vector<PointContact>& contacts, double fraction,
                 SweepColumns columns);
+
+  /// After Converge with kContacts: moves the state along the tangent to where
+  /// the contacts, as many as before, are expected to take it. Returns false
+  /// and leaves the state if anything else has happened since, or if a node
+  /// would turn too far for a linearisation.
+  bool FollowTangent(const std::vector<PointContact>& contacts);
 
   /// Fills the slots of the frame at the present state under the whole load.
   /// False if a number is not finite.
@@ -53,16 +60,10 @@ class LadderNewton {
   double turn() const { return turn_; }
   int longest_run() const { return longest_run_; }
 
-  /// Linearises at the present state and takes no step. With kLoad, `step` and
-  /// `by_load` are filled. With kContacts, for at most kFittedContacts, the
-  /// taps are filled instead and the gauges are read. False if the system is
-  /// singular or a number is not finite.
-  bool Linearize(const std::vector<PointContact>& contacts, double fraction,
-                 SweepColumns columns);
-  /// After Linearize with kContacts: fills `step` with `newton` times Newton's
-  /// step, each contact's (l_c, f_c) being moved by `change` in units of the
-  /// workspace.
-  void StepWithContacts(double newton, const double* change);
+  /// Linearises at the present state by the load and takes no step: fills
+  /// `step` and `by_load`. False if the system is singular or a number is not
+  /// finite.
+  bool Linearize(const std::vector<PointContact>& contacts, double fraction);
 
   /// state += a * step + b * by_load.
   void Move(double a, double b);
@@ -101,6 +102,8 @@ class LadderNewton {
   int iterations_ = 0, longest_run_ = 0;
   double turn_ = 0;
   std::vector<double> angles_before_;
+  // Those of the last Converge, if the frame still holds its tangent.
+  std::vector<PointContact> tangent_of_;
 };
 
 }  // namespace finray

@@ -106,7 +106,7 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
   if (!valid_) return;
   // dy/d ln EI = EI dy/dEI
   for (Matrix* d : {&d_outputs_, &d_closure_}) {
-    if (d->size() == 0) continue;
+    if (d->cols() < columns()) continue;
     d->col(frame_size()) *= front;
     d->col(frame_size() + 1) *= back;
     if (by_friction_) {
@@ -149,8 +149,13 @@ void FrameEvaluation::Take(const double* frame, const Eigen::VectorXd& outputs,
 }
 
 void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
-  if (state_.q.size() > 0) solver->set_state(state_);
-  valid_ = solver->SolveWithSensitivities(loads_);
+  if (state_.q.size() > 0 && !from_solver_) solver->set_state(state_);
+  from_solver_ = false;
+  // Pins and the ends of gauges are loads too.
+  const bool by_contacts =
+      !by_parameter_ && static_cast<int>(loads_.size()) == contacts();
+  valid_ = by_contacts ? solver->SolveByContacts(loads_)
+                       : solver->SolveWithSensitivities(loads_);
   if (!valid_) return;  // the next trial starts from the last equilibrium
   solver->SaveState(&state_);
   outputs_ = solver->outputs();
@@ -193,7 +198,7 @@ void FrameEvaluation::ReadMovedGauges(const Matrix& derivatives) {
 // fixed.
 void FrameEvaluation::SetWithoutPins(const Matrix& derivatives,
                                      Matrix* target) const {
-  if (derivatives.cols() == columns()) {
+  if (derivatives.cols() == columns() || derivatives.cols() == frame_size()) {
     *target = derivatives;
     return;
   }

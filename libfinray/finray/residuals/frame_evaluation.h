@@ -70,6 +70,11 @@ class FrameEvaluation {
             const Matrix& d_outputs,
             const std::vector<Eigen::Vector2d>& by_place);
 
+  /// With false, the next Update() in the reduced form leaves out the
+  /// derivatives by anything but the frame unknowns: d_outputs() has these
+  /// columns only.
+  void set_by_parameter(bool by_parameter) { by_parameter_ = by_parameter; }
+
   /// Exchanges the friction of the contacts, for rows whose object slides
   /// another way; the arguments are those of the constructor.
   void set_friction(double friction, RowFriction row);
@@ -122,7 +127,12 @@ class FrameEvaluation {
   /// The last equilibrium found. The next evaluation starts from it; if it is
   /// empty, from where the solver is.
   const LadderState& state() const { return state_; }
-  void set_state(const LadderState& state) { state_ = state; }
+  void set_state(const LadderState& state) {
+    state_ = state;
+    from_solver_ = false;
+  }
+  /// The next evaluation starts from where its solver is.
+  void StartFromSolver() { from_solver_ = true; }
 
  private:
   void UpdateReduced(EquilibriumSolver* solver);
@@ -133,7 +143,7 @@ class FrameEvaluation {
 
   EquilibriumForm form_;
   int ribs_, effects_, gauges_, contact_count_;
-  bool by_friction_;
+  bool by_friction_, by_parameter_ = true;
   RowFriction row_friction_;
   int ends_ = 0;  // of movable gauges
   // Contacts, then pins, then the start and the end of each movable gauge.
@@ -141,6 +151,7 @@ class FrameEvaluation {
   // Pins that move with an effect: the load and the effect.
   std::vector<std::array<int, 2>> moved_pins_;
   bool on_beam_ = true;  // all gauges
+  bool from_solver_ = false;
   double length_mm_, back_length_mm_;
   bool valid_ = false;
   LadderState state_;

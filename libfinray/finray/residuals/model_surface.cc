@@ -135,8 +135,8 @@ bool ModelSurface::Evaluate(double arc_mm, double normal_N, bool all,
   const int stride = LoadPolynomial::Padded(outputs_);
   const int derivatives = outputs_ * parameters_;
   const int size = LoadPolynomial::Padded(derivatives + 2 * places_);
-  scratch.resize(static_cast<std::size_t>(std::max(6 * stride, size)));
-  surface_.Jets(place, 0, scratch.data());
+  scratch.resize(static_cast<std::size_t>(std::max(3 * stride, size)));
+  surface_.Gradients(place, 0, scratch.data());
   values->error = place.error();
   values->outputs = Eigen::Map<const Eigen::VectorXd>(scratch.data(), outputs_);
   values->d_outputs.resize(outputs_, 2 + parameters_);

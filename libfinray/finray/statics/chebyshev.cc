@@ -23,25 +23,22 @@ Eigen::MatrixXd Transform(int terms) {
 void SetChebyshev(const Eigen::Array2d& x, const Eigen::Array2d& slope,
                   int terms, PolynomialBasis* basis) {
   using Both = Eigen::Array2d;
-  const auto keep = [basis](int k, const Both& t, const Both& d,
-                            const Both& dd) {
+  const auto keep = [basis](int k, const Both& t, const Both& d) {
     Eigen::Map<Both>(basis->by[0][k]) = t;
     Eigen::Map<Both>(basis->by[1][k]) = d;
-    Eigen::Map<Both>(basis->by[2][k]) = dd;
   };
-  // T_k, T_k' and T_k'' of k - 2 and k - 1.
-  Both t0 = Both::Ones(), d0 = Both::Zero(), dd0 = Both::Zero();
-  Both t1 = x, d1 = slope, dd1 = Both::Zero();
-  keep(0, t0, d0, dd0);
-  keep(1, t1, d1, dd1);
+  // T_k and T_k' of k - 2 and k - 1.
+  Both t0 = Both::Ones(), d0 = Both::Zero();
+  Both t1 = x, d1 = slope;
+  keep(0, t0, d0);
+  keep(1, t1, d1);
   const Both twice_x = 2 * x, twice_slope = 2 * slope;
   for (int k = 2; k < terms; ++k) {
     const Both t = twice_x * t1 - t0;
     const Both d = twice_x * d1 - d0 + twice_slope * t1;
-    const Both dd = twice_x * dd1 - dd0 + 2 * twice_slope * d1;
-    keep(k, t, d, dd);
-    t0 = t1, d0 = d1, dd0 = dd1;
-    t1 = t, d1 = d, dd1 = dd;
+    keep(k, t, d);
+    t0 = t1, d0 = d1;
+    t1 = t, d1 = d;
   }
 }
 

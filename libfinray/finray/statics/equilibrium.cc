@@ -91,12 +91,14 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
   undeformed_ = false;
   trail_.Add(contacts, newton_.frame().state.q, newton_.frame().state_size());
   CollectValues(true, &outputs_);
-  if (columns != SweepColumns::kParameters) return true;
-  const int p = static_cast<int>(parameter_unit_.size());
+  if (columns == SweepColumns::kNone) return true;
+  const int p = columns == SweepColumns::kContacts
+                    ? 2 * newton_.frame().contact_count
+                    : static_cast<int>(parameter_unit_.size());
   d_outputs_.setZero(outputs_.size(), p);
   AddTaps(newton_.frame().affine + 1, p, &d_outputs_);
   d_outputs_.array().colwise() *= output_unit_.array();
-  d_outputs_.array().rowwise() /= parameter_unit_.transpose().array();
+  d_outputs_.array().rowwise() /= parameter_unit_.head(p).transpose().array();
   return true;
 }
 
@@ -119,13 +121,21 @@ SolveStatus EquilibriumSolver::Attempt(
   return SolveStatus::kNotConverged;
 }
 
-// Tries the guess of the trail, and then the newest equilibrium unless the mesh
-// was refined on the way.
+// Moves the state to a guess, by the tangent at the newest equilibrium or else
+// by the trail.
+bool EquilibriumSolver::Predict(const std::vector<PointContact>& contacts) {
+  const LadderFrame<double>& f = newton_.frame();
+  return newton_.FollowTangent(contacts) ||
+         trail_.Predict(contacts, f.state.q, f.state_size());
+}
+
+// Tries the guess, and then the newest equilibrium unless the mesh was refined
+// on the way.
 bool EquilibriumSolver::ConvergeNear(const std::vector<PointContact>& contacts,
                                      SweepColumns columns, bool heavy) {
   const LadderFrame<double>& f = newton_.frame();
   const Eigen::Index size = f.state_size();
-  if (trail_.Predict(contacts, f.state.q, size)) {
+  if (Predict(contacts)) {
     const Eigen::VectorXd& before = trail_.newest();
     double turned = 0;
     for (int e = 0; e < f.elements; ++e) {

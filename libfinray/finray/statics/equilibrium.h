@@ -75,6 +75,13 @@ class EquilibriumSolver {
     return SolveFor(contacts, SweepColumns::kParameters);
   }
 
+  /// As SolveWithSensitivities, for up to kFittedContacts contacts, with the
+  /// columns [l_c, f_c of each contact] only. A sequence of such solves starts
+  /// each from the tangent at the one before.
+  bool SolveByContacts(const std::vector<PointContact>& contacts) {
+    return SolveFor(contacts, SweepColumns::kContacts);
+  }
+
   SolveStatus status() const { return status_; }
   /// Why the last solve failed, one clause; empty if it did not.
   std::string Why() const;
@@ -96,7 +103,7 @@ class EquilibriumSolver {
   const Eigen::VectorXd& outputs() const { return outputs_; }
   /// Derivatives of outputs() at equilibrium by the implicit function theorem,
   /// columns [l_c, f_c of each contact; EI front; EI back; rib lengths (r);
-  /// effects of the model].
+  /// effects of the model], or the first of them (SolveByContacts).
   const Matrix& d_outputs() const { return d_outputs_; }
 
   /// Newton iterations of the last solve, all attempts together.
@@ -124,6 +131,7 @@ class EquilibriumSolver {
                       SweepColumns columns);
   bool ConvergeNear(const std::vector<PointContact>& contacts,
                     SweepColumns columns, bool heavy);
+  bool Predict(const std::vector<PointContact>& contacts);
   bool Converge(const std::vector<PointContact>& contacts, SweepColumns columns,
                 bool heavy, double turned = 0);
   bool IsBadLoad(const std::vector<PointContact>& contacts) const;

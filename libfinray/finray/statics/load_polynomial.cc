@@ -8,13 +8,13 @@ namespace finray {
 using Evaluate = void(const LoadPolynomial& polynomial,
                       const PolynomialBasis& basis, double* results);
 inline namespace generic {
-Evaluate ValuesOf, JetsOf;
+Evaluate ValuesOf, GradientsOf;
 }
 namespace avx2 {
-Evaluate ValuesOf, JetsOf;
+Evaluate ValuesOf, GradientsOf;
 }
 namespace avx512 {
-Evaluate ValuesOf, JetsOf;
+Evaluate ValuesOf, GradientsOf;
 }
 
 void EvaluateValues(const LoadPolynomial& polynomial,
@@ -23,10 +23,11 @@ void EvaluateValues(const LoadPolynomial& polynomial,
   kEvaluate[BestInstructionSet() + set](polynomial, basis, values);
 }
 
-void EvaluateJets(const LoadPolynomial& polynomial,
-                  const PolynomialBasis& basis, double* jets, int set) {
-  static constexpr Evaluate* kEvaluate[] = FINRAY_COMPILATIONS(JetsOf);
-  kEvaluate[BestInstructionSet() + set](polynomial, basis, jets);
+void EvaluateGradients(const LoadPolynomial& polynomial,
+                       const PolynomialBasis& basis, double* gradients,
+                       int set) {
+  static constexpr Evaluate* kEvaluate[] = FINRAY_COMPILATIONS(GradientsOf);
+  kEvaluate[BestInstructionSet() + set](polynomial, basis, gradients);
 }
 
 }  // namespace finray

@@ -23,10 +23,10 @@ struct LoadPolynomial {
   const double* c;  ///< [i][j][value]
 };
 
-/// P_i and Q_j of a load and their first and second derivatives.
+/// P_i and Q_j of a load and their derivatives.
 struct PolynomialBasis {
   static constexpr int kMostTerms = 16;
-  double by[3][kMostTerms][2];  ///< [derivative][term][0 by l, 1 by f]
+  double by[2][kMostTerms][2];  ///< [derivative][term][0 by l, 1 by f]
 };
 
 /// Evaluates all values. `set` counts from the best instruction set of this
@@ -34,10 +34,10 @@ struct PolynomialBasis {
 void EvaluateValues(const LoadPolynomial& polynomial,
                     const PolynomialBasis& basis, double* values, int set = 0);
 
-/// Evaluates v, dv/dl, dv/df, d2v/dl2, d2v/dldf and d2v/df2 of all values, in
-/// this order: 6 x values.
-void EvaluateJets(const LoadPolynomial& polynomial,
-                  const PolynomialBasis& basis, double* jets, int set = 0);
+/// Evaluates v, dv/dl and dv/df of all values, in this order: 3 x values.
+void EvaluateGradients(const LoadPolynomial& polynomial,
+                       const PolynomialBasis& basis, double* gradients,
+                       int set = 0);
 
 }  // namespace finray
 

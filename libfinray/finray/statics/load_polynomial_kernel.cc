@@ -35,32 +35,30 @@ void SumValues(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
 }
 
 template <int n>
-void SumJets(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
-             int* first, double* jets) {
+void SumGradients(const LoadPolynomial& polynomial,
+                  const PolynomialBasis& basis, int* first,
+                  double* gradients) {
   const int stride = polynomial.values;
   for (; *first + n * kWidth <= stride; *first += n * kWidth) {
     const double* c = polynomial.c + *first;
-    V sums[6][n] = {};
+    V sums[3][n] = {};
     for (int i = 0; i < polynomial.arc_terms; ++i) {
-      V along[3][n] = {};
+      V along[2][n] = {};
       for (int j = 0; j < polynomial.force_terms[i]; ++j, c += stride) {
         for (int k = 0; k < n; ++k) {
           const V term = Some::Load(c + k * kWidth);
-          for (int d = 0; d < 3; ++d) along[d][k] += basis.by[d][j][1] * term;
+          for (int d = 0; d < 2; ++d) along[d][k] += basis.by[d][j][1] * term;
         }
       }
       for (int k = 0; k < n; ++k) {
         sums[0][k] += basis.by[0][i][0] * along[0][k];
         sums[1][k] += basis.by[1][i][0] * along[0][k];
         sums[2][k] += basis.by[0][i][0] * along[1][k];
-        sums[3][k] += basis.by[2][i][0] * along[0][k];
-        sums[4][k] += basis.by[1][i][0] * along[1][k];
-        sums[5][k] += basis.by[0][i][0] * along[2][k];
       }
     }
-    for (int d = 0; d < 6; ++d) {
+    for (int d = 0; d < 3; ++d) {
       for (int k = 0; k < n; ++k) {
-        Some::Store(sums[d][k], jets + d * stride + *first + k * kWidth);
+        Some::Store(sums[d][k], gradients + d * stride + *first + k * kWidth);
       }
     }
   }
@@ -77,11 +75,11 @@ void ValuesOf(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
   SumValues<1>(polynomial, basis, &first, values);
 }
 
-void JetsOf(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
-            double* jets) {
+void GradientsOf(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
+                 double* gradients) {
   int first = 0;
-  SumJets<2>(polynomial, basis, &first, jets);
-  SumJets<1>(polynomial, basis, &first, jets);
+  SumGradients<2>(polynomial, basis, &first, gradients);
+  SumGradients<1>(polynomial, basis, &first, gradients);
 }
 
 }  // namespace FINRAY_ISA

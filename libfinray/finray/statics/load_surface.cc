@@ -113,8 +113,9 @@ void LoadSurface::Values(const Place& place, int group, double* values) const {
   EvaluateValues(place.cell_->Polynomial(group), place.basis_, values);
 }
 
-void LoadSurface::Jets(const Place& place, int group, double* jets) const {
-  EvaluateJets(place.cell_->Polynomial(group), place.basis_, jets);
+void LoadSurface::Gradients(const Place& place, int group,
+                            double* gradients) const {
+  EvaluateGradients(place.cell_->Polynomial(group), place.basis_, gradients);
 }
 
 }  // namespace finray

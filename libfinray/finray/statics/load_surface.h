@@ -71,8 +71,8 @@ class LoadSurface {
   /// Evaluates a group. `values` has room for LoadPolynomial::Padded(its size).
   void Values(const Place& place, int group, double* values) const;
   /// The values of a group and their derivatives by l_c (mm) and f_c (N) in the
-  /// order of EvaluateJets, 6 x LoadPolynomial::Padded(its size).
-  void Jets(const Place& place, int group, double* jets) const;
+  /// order of EvaluateGradients, 3 x LoadPolynomial::Padded(its size).
+  void Gradients(const Place& place, int group, double* gradients) const;
 
  private:
   // The cell of the domain that holds a load; cells_.size() outside.

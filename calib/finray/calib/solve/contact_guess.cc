@@ -1,9 +1,12 @@
 #include "finray/calib/solve/contact_guess.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
+#include "finray/calib/solve/frame_surface.h"
 #include "finray/finger/geometry.h"
 
 namespace finray {
@@ -11,18 +14,30 @@ namespace {
 
 // The table has half as many rows as the table of an estimate. Its tolerance
 // and that of the fit are as small as the solve that starts from them needs.
-// The tolerance of the fit is relative to l_0 and EI / l_0^2.
 constexpr int kRows = GaugeTable::kMostRows / 2;
 constexpr double kMostGap_mm = 2;
-constexpr double kTableTolerance = 1e-6, kFitTolerance = 1e-3;
+constexpr double kTolerance = 1e-6;
 // The surface is exact to this, in std: the solve goes on from the guess.
-constexpr double kSurfaceExact_std = 0.1;
+constexpr double kGuess_std = 0.1, kGuess_rad = 1e-4;
 
-EquilibriumSolver SolverFor(const CalibrationProblem& problem) {
+EquilibriumSolver SolverAt(const CalibrationProblem& problem) {
   EquilibriumSolver solver(problem.parameters().Apply(problem.finger()),
                            problem.discretization());
-  solver.set_tolerance(kTableTolerance);
+  solver.set_tolerance(kTolerance);
   return solver;
+}
+
+// A fit starts from an equilibrium of the table, and needs no path of loads.
+EquilibriumSolver NearSolver(const CalibrationProblem& problem) {
+  EquilibriumSolver solver(problem.finger(), problem.discretization());
+  solver.set_tolerance(kTolerance);
+  solver.set_near_only(true);
+  return solver;
+}
+
+Plan WithoutLoss(Plan plan) {
+  plan.loss = RobustLoss::kNone;
+  return plan;
 }
 
 // The radius of the circle at the present parameters, if there is a circle.
@@ -32,36 +47,49 @@ std::optional<double> RadiusOf(const CalibrationProblem& problem) {
              : std::nullopt;
 }
 
+std::shared_ptr<const GaugeTable> TableOf(const CalibrationProblem& problem) {
+  EquilibriumSolver solver = SolverAt(problem);
+  return std::make_shared<const GaugeTable>(
+      &solver, problem.parameters().friction(), RadiusOf(problem), std::nullopt,
+      problem.threads(), kRows);
+}
+
 }  // namespace
 
 ContactGuess::ContactGuess(CalibrationProblem* problem, bool many)
     : problem_(*problem),
-      solver_(SolverFor(*problem)),
-      table_(&solver_, problem->parameters().friction(), RadiusOf(*problem),
-             std::nullopt, problem->threads(), kRows),
-      fit_(solver_.model().finger(), problem->discretization(),
-           RadiusOf(*problem)),
-      many_(many),
-      circle_(RadiusOf(*problem).has_value()) {
-  const auto size = static_cast<Eigen::Index>(problem->finger().gauges.size()) +
-                    (circle_ ? 2 : 0);
+      plan_(WithoutLoss(problem->plan())),
+      solver_(NearSolver(*problem)),
+      table_(TableOf(*problem)),
+      surface_(many ? std::make_shared<const ModelSurface>(SurfaceOf(
+                          *problem, kGuess_std, kGuess_rad, false))
+                    : nullptr),
+      linearizer_(Linearizer()) {
+  const auto gauges = static_cast<Eigen::Index>(problem->finger().gauges.size());
+  const Eigen::Index size = gauges + (RadiusOf(*problem) ? 2 : 0);
   values_.resize(size);
   weights_.resize(size);
-  fit_.set_most_force(table_.heaviest_N());
-  fit_.set_tolerance(kFitTolerance);
-  if (many && size > 0) {
-    surface_ = std::make_shared<const GaugeSurface>(
-        solver_, problem->parameters().friction(), RadiusOf(*problem),
-        table_.heaviest_N(), kSurfaceExact_std);
-  }
+}
+
+ContactGuess::ContactGuess(const ContactGuess& other)
+    : problem_(other.problem_),
+      plan_(other.plan_),
+      solver_(other.solver_),
+      table_(other.table_),
+      surface_(other.surface_),
+      linearizer_(Linearizer()),
+      values_(other.values_),
+      weights_(other.weights_) {}
+
+FrameLinearizer ContactGuess::Linearizer() const {
+  return FrameLinearizer(solver_, plan_, &problem_.blocks(),
+                         &problem_.parameters(), surface_.get());
 }
 
 ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
-  values_.setZero();
-  weights_.setZero();
-  const bool by_object = circle_ && frame.object_mm.allFinite();
-  if (by_object) AddCircle(frame);
-  if (!by_object || from == From::kAll) AddGauges(frame);
+  const bool by_object = problem_.plan().scene.circle_radius_mm() &&
+                         frame.object_mm.allFinite();
+  Take(frame, by_object, !by_object || from == From::kAll);
   // A fit makes the finger meet the circle exactly. The data may not tell the
   // common scale of all stiffnesses and forces, which then stays as given only
   // if the start is near a solution. kObjectFirst does not fit gauges alone:
@@ -73,64 +101,76 @@ ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
   }
   const double force = frame.Force().magnitude_N;
   // A wild force may be larger than the finger can carry.
-  if (from == From::kObjectFirst && force <= table_.heaviest_N()) {
+  if (from == From::kObjectFirst && force <= table_->heaviest_N()) {
     place.normal_N = std::max(force, 0.0);
   }
   return place;
 }
 
-void ContactGuess::AddCircle(const CalibrationFrame& frame) {
+void ContactGuess::Take(const CalibrationFrame& frame, bool object,
+                        bool gauges) {
+  constexpr double kNone = CalibrationFrame::kNotMeasured;
+  taken_ = frame;
+  taken_.contact = true;
+  taken_.force_N = taken_.contact_mm = kNone;
+  taken_.force_xy_N.setConstant(kNone);
+  taken_.tip_mm.setConstant(kNone);
+  taken_.pins.clear();
+  if (!object) taken_.object_mm.setConstant(kNone);
+  if (!gauges) std::fill(taken_.gauges_V.begin(), taken_.gauges_V.end(), kNone);
+  values_.setZero();
+  weights_.setZero();
+  if (object) PackCircle();
+  if (gauges) PackGauges();
+}
+
+void ContactGuess::PackCircle() {
   values_.tail<2>() =
-      problem_.parameters().Stage(frame.log).InS(frame.object_mm);
+      problem_.parameters().Stage(taken_.log).InS(taken_.object_mm);
   weights_.tail<2>().setConstant(1 / problem_.plan().object_std_mm);
 }
 
-void ContactGuess::AddGauges(const CalibrationFrame& frame) {
+void ContactGuess::PackGauges() {
   CalibrationParameters& parameters = problem_.parameters();
-  for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
+  for (int j = 0; j < static_cast<int>(taken_.gauges_V.size()); ++j) {
     Gauge gauge = parameters.Present(problem_.finger(), j);
     gauge.offset_V =
-        parameters.readings.Sum(frame, j) + parameters.OfHistory(frame, j);
-    const double angle = gauge.Angle(frame.gauges_V[j]);
+        parameters.readings.Sum(taken_, j) + parameters.OfHistory(taken_, j);
+    const double angle = gauge.Angle(taken_.gauges_V[j]);
     if (!std::isfinite(angle)) continue;
     values_[j] = angle;
     weights_[j] = std::abs(gauge.Slope(angle)) /
-                  frame.GaugeStd_V(static_cast<std::size_t>(j),
-                                   problem_.blocks().gauge_std_V(j));
+                  taken_.GaugeStd_V(static_cast<std::size_t>(j),
+                                    problem_.blocks().gauge_std_V(j));
   }
 }
 
 ContactGuess::Place ContactGuess::FromTable(bool fit) {
-  const ContactStart start = table_.BestStart(values_, weights_);
+  const ContactStart start = table_->BestStart(values_, weights_);
   if (start.state == nullptr) {
     return {problem_.finger().front_length_mm / 2,
-            ForceUnit(solver_.model().finger()), false};
+            ForceUnit(problem_.parameters().Apply(problem_.finger())), false};
   }
   Place place{start.contacts[0].arc_mm, start.contacts[0].normal_N, false};
-  double chi2 = 0;
-  if (!fit || !Fit(start, &place, &chi2)) return place;
-  // A circle out of reach leaves the contact on a bound.
-  const bool alone = circle_ && weights_.head(weights_.size() - 2).isZero();
-  const double gap_mm = std::sqrt(chi2) * problem_.plan().object_std_mm;
-  place.met = !alone || gap_mm < kMostGap_mm;
-  return place;
-}
-
-bool ContactGuess::Fit(const ContactStart& start, Place* place, double* chi2) {
-  if (surface_ && surface_->Fit(values_, weights_, table_.heaviest_N(),
-                                start.contacts[0], &solution_)) {
-    place->arc_mm = solution_.contacts[0].arc_mm;
-    place->normal_N = solution_.contacts[0].normal_N;
-    *chi2 = solution_.chi2;
-    return true;
+  if (!fit) return place;
+  FrameFit::Ending ending;
+  ending.takes_last_step = true;
+  std::array<double, 2> contact = {place.arc_mm, place.normal_N};
+  const auto state = [&](const double*, LadderState* near) {
+    *near = *start.state;
+  };
+  if (!linearizer_.FitContact(taken_, &contact, state, &at_, ending) ||
+      !linearizer_.converged()) {
+    return place;
   }
-  std::vector<PointContact> contact = {start.contacts[0]};
-  fit_.set_state(*start.state);
-  if (!fit_.Fit(values_, weights_, &contact)) return false;
-  place->arc_mm = contact[0].arc_mm;
-  place->normal_N = contact[0].normal_N;
-  *chi2 = fit_.chi2();
-  return true;
+  place.arc_mm = contact[0];
+  place.normal_N = contact[1];
+  // A circle out of reach leaves the contact on a bound.
+  const double object_std_mm =
+      taken_.place_std_times * problem_.plan().object_std_mm;
+  place.met = !weights_.head(taken_.gauges_V.size()).isZero(0) ||
+              std::sqrt(2 * at_.cost) * object_std_mm < kMostGap_mm;
+  return place;
 }
 
 }  // namespace finray

@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "finray/calib/problem/calibration_problem.h"
-#include "finray/sensing/fast/contact_fit.h"
-#include "finray/sensing/gauge_surface.h"
+#include "finray/calib/solve/frame_linearizer.h"
 #include "finray/sensing/gauge_table.h"
 
 namespace finray {
@@ -14,17 +13,17 @@ namespace finray {
 /// Guesses the contact of a frame, for a solve to start from. The finger is
 /// that of the present parameters. A measured contact location is taken as it
 /// is. Otherwise the contact is searched for, by the place of the object or by
-/// the gauges. The search starts from a table of contacts (gauge_table.h).
+/// the gauges: a fit to their blocks (FrameFit) starts from a table of contacts
+/// (gauge_table.h).
 class ContactGuess {
  public:
-  /// Below so many frames, their own equilibria take less time than those of a
-  /// surface (load_surface.h).
-  static constexpr std::size_t kMany = 2000;
-
-  /// `problem` must stay in place. With `many` frames to guess, a GaugeSurface
-  /// fits them. Throws InputError for a finger without an
+  /// `problem` must stay in place. With `many` frames to guess, they are fitted
+  /// on a surface (frame_surface.h). Throws InputError for a finger without an
   /// unloaded equilibrium.
   explicit ContactGuess(CalibrationProblem* problem, bool many = false);
+  /// For another thread. Both share the surface.
+  ContactGuess(const ContactGuess& other);
+  ContactGuess& operator=(const ContactGuess&) = delete;
 
   struct Place {
     double arc_mm = 0, normal_N = 0;
@@ -38,25 +37,26 @@ class ContactGuess {
   enum class From { kObjectFirst, kAll };
   Place Of(const CalibrationFrame& frame, From from);
 
-  const GaugeTable& table() const { return table_; }
+  const GaugeTable& table() const { return *table_; }
   /// Says whether this guess was made for many frames.
-  bool many() const { return many_; }
+  bool many() const { return surface_ != nullptr; }
 
  private:
-  void AddCircle(const CalibrationFrame& frame);
-  void AddGauges(const CalibrationFrame& frame);
+  // Takes from a frame what the contact is searched by.
+  void Take(const CalibrationFrame& frame, bool object, bool gauges);
+  void PackCircle();
+  void PackGauges();
   Place FromTable(bool fit);
-  // Moves a start to where it explains the frame best. Returns whether it
-  // converges.
-  bool Fit(const ContactStart& start, Place* place, double* chi2);
+  FrameLinearizer Linearizer() const;
 
   CalibrationProblem& problem_;
+  Plan plan_;  // without a loss
   EquilibriumSolver solver_;
-  GaugeTable table_;
-  std::shared_ptr<const GaugeSurface> surface_;  // null: none
-  ContactFit fit_;
-  ContactSolution solution_;
-  bool many_, circle_;
+  std::shared_ptr<const GaugeTable> table_;
+  std::shared_ptr<const ModelSurface> surface_;  // null: none
+  FrameLinearizer linearizer_;
+  CalibrationFrame taken_;
+  LinearizedFrame at_;
   Eigen::VectorXd values_, weights_;  // gauges, then the circle's centre
 };
 

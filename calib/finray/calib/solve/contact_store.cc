@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "finray/calib/solve/frame_surface.h"
 #include "finray/io/nan.h"
 #include "finray/residuals/parallel_frames.h"
 
@@ -22,7 +23,7 @@ void ContactStore::Guess(const std::vector<int>& frames,
     }
   }
   if (wanted.empty()) return;
-  const bool many = wanted.size() >= ContactGuess::kMany;
+  const bool many = wanted.size() >= kFramesForSurface;
   if (!guess_ || guessed_at_ != problem_.Values() ||
       (many && !guess_->many())) {
     NewGuess(many);

@@ -71,9 +71,9 @@ bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
 
 bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
                                  std::array<double, 2>* contact,
-                                 const StartState& start,
-                                 LinearizedFrame* out) {
-  const bool evaluated = fit_.Fit(Prepare(frame, *contact), start, out);
+                                 const StartState& start, LinearizedFrame* out,
+                                 const FrameFit::Ending& ending) {
+  const bool evaluated = fit_.Fit(Prepare(frame, *contact), start, out, ending);
   *contact = contact_;
   return evaluated;
 }

@@ -41,7 +41,10 @@ class FrameLinearizer {
   /// starts behind LinearizedFrame::move. If the model cannot be evaluated, it
   /// returns false and leaves `out` without rows.
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
-                  const StartState& start, LinearizedFrame* out);
+                  const StartState& start, LinearizedFrame* out,
+                  const FrameFit::Ending& ending = {});
+  /// Says whether the last fit has ended as `ending` says.
+  bool converged() const { return fit_.converged(); }
 
  private:
   static EquilibriumSolver WithEffects(EquilibriumSolver solver,

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "finray/calib/solve/frame_linearizer.h"
-#include "finray/residuals/model_surface.h"
+#include "finray/calib/solve/frame_surface.h"
 
 namespace finray {
 namespace {
@@ -29,34 +29,6 @@ constexpr double kExact_rad = 1e-7;
 
 using Evaluate = std::function<void(int frame, FrameLinearizer* linearizer,
                                     LinearizedFrame* out)>;
-
-// The model at the present values, where so many frames are evaluated that its
-// cells are worth their equilibria.
-std::optional<ModelSurface> SurfaceFor(const std::vector<int>& frames,
-                                       const CalibrationProblem& problem) {
-  if (frames.size() < ContactGuess::kMany) return {};
-  const CalibrationParameters& parameters = problem.parameters();
-  const auto gauges = static_cast<int>(problem.finger().gauges.size());
-  const int poses = problem.plan().tip_std_mm ? 2 : 1;  // contact, tip
-  const double exact_std =
-      kExact_std / std::sqrt(static_cast<double>(frames.size()));
-  Eigen::VectorXd resolution(gauges + 3 * poses);
-  double rad = kExact_rad;
-  for (int j = 0; j < gauges; ++j) {
-    const Gauge gauge = parameters.Present(problem.finger(), j);
-    resolution[j] = std::min(kExact_rad, exact_std / gauge.AngleWeight());
-    rad = std::min(rad, resolution[j]);
-  }
-  for (int i = 0; i < poses; ++i) {
-    resolution.segment<2>(gauges + 3 * i)
-        .setConstant(rad * problem.finger().front_length_mm);
-    resolution[gauges + 3 * i + 2] = rad;
-  }
-  return std::make_optional<ModelSurface>(
-      EquilibriumSolver(problem.finger(), problem.discretization()),
-      parameters.shared, parameters.friction(), problem.plan().MovesGauges(),
-      ModelSurface::Content{resolution});
-}
 
 // Makes the cells of the surface where the frames start, on the threads of the
 // caller's arena.
@@ -87,7 +59,12 @@ void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
     std::array<LinearizedFrame, kChunk> frames;
   };
   const EquilibriumSolver solver(problem->finger(), problem->discretization());
-  const std::optional<ModelSurface> surface = SurfaceFor(frames, *problem);
+  std::optional<ModelSurface> surface;
+  if (frames.size() >= kFramesForSurface) {
+    const double exact_std =
+        kExact_std / std::sqrt(static_cast<double>(frames.size()));
+    surface.emplace(SurfaceOf(*problem, exact_std, kExact_rad, true));
+  }
   tbb::task_arena(problem->threads()).execute([&] {
     problem->parameters().FollowHistories();
     if (surface) MakeCells(frames, contacts, *problem, *surface);
