@@ -291,8 +291,8 @@ bool MakeRoom(std::list<Session>* sessions) {
 void Listen(const BatchSettings& settings, const std::string& address,
             const FollowSettings& follow_one) {
   const Listener listener(address);
-  const FrameEstimator prepared(settings.finger, settings.scene,
-                                settings.discretization, settings.method);
+  FrameEstimator prepared(settings.finger, settings.scene,
+                          settings.discretization, settings.method);
   prepared.Prepare();
   FollowSettings follow = follow_one;
   follow.prepared = &prepared;

@@ -68,7 +68,7 @@ const Frame& LiveEstimator::Next(const Readings& readings) {
           "time_s: is missing; the scene's gauge_offset_walk needs it");
     }
     if (!inside_->history.empty()) inside_->history.Remove(&row);
-    const FrameEstimate estimate = inside_->estimator.Next(row);
+    const FrameEstimate& estimate = inside_->estimator.Next(row);
     Frame& frame = inside_->frame;
     frame.status = static_cast<FrameStatus>(estimate.status);
     frame.contacts = estimate.contacts;

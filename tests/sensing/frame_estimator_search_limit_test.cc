@@ -31,7 +31,7 @@ class SearchLimitTest : public testing::Test {
   // The finger is not quite the one that is estimated with, so that one contact
   // often does not explain a frame.
   const std::vector<Measurements> log_ =
-      LatencyReadings(SlightlyWrong(finger_), 300);
+      LatencyReadings(SlightlyWrong(SlightlyWrong(finger_)), 300);
 };
 
 TEST_F(SearchLimitTest, FramesAreThoseOfAWholeSearchOrFlagged) {

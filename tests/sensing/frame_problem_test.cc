@@ -196,7 +196,7 @@ TEST(FrameProblemTest, SmoothedFramesHaveTheirOwnCalibrationErrors) {
   }
 }
 
-class CameraTest : public testing::Test {
+class CameraTest : public testing::TestWithParam<FrameMethod> {
  protected:
   // Returns the measurements of a camera that looks at the solver's finger,
   // with noise.
@@ -225,13 +225,13 @@ class CameraTest : public testing::Test {
 };
 
 // Pins and tip narrow the estimate, and the std says by how much.
-TEST_F(CameraTest, PinsAndTipAreMeasurements) {
+TEST_P(CameraTest, PinsAndTipAreMeasurements) {
   constexpr double kStd_mm = 0.01;
   Scene scene;
   scene.contacts = 1;
-  FrameEstimator gauges(finger_, scene, {}, FrameMethod::kCeresReduced);
+  FrameEstimator gauges(finger_, scene, {}, GetParam());
   scene.pin_std_mm = scene.tip_std_mm = kStd_mm;
-  FrameEstimator camera(finger_, scene, {}, FrameMethod::kCeresReduced);
+  FrameEstimator camera(finger_, scene, {}, GetParam());
   FrameEstimator weighted(finger_, scene, {}, FrameMethod::kCeresWeighted);
   ASSERT_TRUE(solver_.Solve({contact_}));
   std::mt19937_64 generator(3);
@@ -257,10 +257,10 @@ TEST_F(CameraTest, PinsAndTipAreMeasurements) {
 }
 
 // Frames without any gauge: a camera alone.
-TEST_F(CameraTest, ACameraAlone) {
+TEST_P(CameraTest, ACameraAlone) {
   Scene scene;
   scene.pin_std_mm = 0.05;
-  FrameEstimator camera(finger_, scene, {}, FrameMethod::kCeresReduced);
+  FrameEstimator camera(finger_, scene, {}, GetParam());
   std::mt19937_64 generator(4);
   ASSERT_TRUE(solver_.Solve({contact_}));
   Measurements row = See(0.05, &generator);
@@ -278,11 +278,11 @@ TEST_F(CameraTest, ACameraAlone) {
 }
 
 // The starts of two contacts have no gauge to go by.
-TEST_F(CameraTest, ACameraAloneSeesTwoContacts) {
+TEST_P(CameraTest, ACameraAloneSeesTwoContacts) {
   Scene scene;
   scene.contacts = 2;
   scene.pin_std_mm = 0.01;
-  FrameEstimator camera(finger_, scene, {}, FrameMethod::kCeresReduced);
+  FrameEstimator camera(finger_, scene, {}, GetParam());
   const std::vector<PointContact> contacts = {{35, 3}, {95, 2}};
   ASSERT_TRUE(solver_.Solve(contacts));
   Measurements row = CleanReadings(solver_);
@@ -302,11 +302,13 @@ TEST_F(CameraTest, ACameraAloneSeesTwoContacts) {
   }
 }
 
-TEST_F(CameraTest, TheFastSolverRefusesIt) {
-  Scene scene;
-  scene.tip_std_mm = 0.1;
-  EXPECT_THROW(FrameEstimator(finger_, scene, {}), InputError);
-}
+INSTANTIATE_TEST_SUITE_P(Solvers, CameraTest,
+                         testing::Values(FrameMethod::kFast,
+                                         FrameMethod::kCeresReduced),
+                         [](const auto& info) {
+                           return info.param == FrameMethod::kFast ? "default"
+                                                                   : "ceres";
+                         });
 
 }  // namespace
 }  // namespace finray

@@ -26,9 +26,10 @@ Latency Measure(const Finger& finger, const Scene& scene,
                             std::numeric_limits<double>::infinity());
   for (int run = 0; run < runs; ++run) {
     FrameEstimator estimator(finger, scene);
+    estimator.Prepare();
     for (std::size_t i = 0; i < log.size(); ++i) {
       const double start = ThreadSeconds();
-      const FrameEstimate estimate = estimator.Next(log[i]);
+      const FrameEstimate& estimate = estimator.Next(log[i]);
       times[i] = std::min(times[i], 1e6 * (ThreadSeconds() - start));
       if (run > 0) continue;
       latency.ended += estimate.search_ended;

@@ -48,7 +48,7 @@ struct Scene {
   /// not use them.
   std::optional<double> object_std_mm;
   /// Std of the rib pins and of the tip seen by a camera. Empty: the estimate
-  /// does not use them. Only --solver ceres does.
+  /// does not use them.
   std::optional<double> pin_std_mm, tip_std_mm;
   /// The largest credible force of a contact. Empty: a multiple of EI / l_0^2
   /// (ContactSearch::most_force_N).

@@ -49,6 +49,9 @@ class ContactSearch {
   ContactSearch(const ContactSearch&) = delete;
   ContactSearch& operator=(const ContactSearch&) = delete;
 
+  /// Makes what searches would make when they first need it.
+  void Prepare();
+
   /// Begins a frame. Its searches share Scene::search_iteration_limit. `row`
   /// must stay in place.
   void Begin(const Measurements& row) {
@@ -58,8 +61,7 @@ class ContactSearch {
   }
   /// Searches with one or two contacts. Returns false if no start converged. A
   /// contact with less than `least_force_N` is none. If IsDoubted, the first
-  /// pair that explains the frame ends the search, or a few starts that leave
-  /// chi2 hopeless.
+  /// pair that explains the frame ends the search, or a number of iterations.
   bool Search(int contacts, const Measurements& row,
               const PackedReadings& packed, double least_force_N = 0);
   /// Says whether the gauges of a frame do not tell whether there are two
@@ -128,6 +130,7 @@ class ContactSearch {
   double most_force_N() const { return most_force_N_; }
 
  private:
+  bool MayFindPairs() const;
   // The iterations left by the limit; and what a fit may take of them.
   int LeftOfLimit() const;
   int Left() const;
@@ -190,8 +193,8 @@ class ContactSearch {
   std::size_t turn_ = 0;      // of pair_starts_
   double searched_chi2_ = 0;  // where following began
   bool suspect_ = false;
-  int iterations_ = 0;
-  int spent_ = 0;  // by all searches of the frame
+  int iterations_ = 0, most_iterations_ = 0;  // of this search
+  int spent_ = 0;                             // by all searches of the frame
   bool ended_ = false;
 };
 

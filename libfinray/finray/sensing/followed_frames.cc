@@ -52,27 +52,29 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
   }
 }
 
-FrameEstimate FrameEstimator::Next(const Measurements& readings) {
-  if (!offsets_) return NextAlone(readings);
-  FrameEstimate estimate = NextAlone(offsets_->Correct(readings));
-  offsets_->Judge(&estimate);
-  return estimate;
+const FrameEstimate& FrameEstimator::Next(const Measurements& readings) {
+  if (offsets_) {
+    NextAlone(offsets_->Correct(readings));
+    offsets_->Judge(&next_);
+  } else {
+    NextAlone(readings);
+  }
+  return next_;
 }
 
-FrameEstimate FrameEstimator::NextAlone(const Measurements& readings) {
+void FrameEstimator::NextAlone(const Measurements& readings) {
   if (Slides(readings)) {
     LeaveLastFrame();
-    return EstimateSliding(readings);
+    next_ = EstimateSliding(readings);
+    return;
   }
-  FrameEstimate estimate;
   PackAll(&readings, 1);
-  SearchNext(readings, packed_[0], &estimate);
+  SearchNext(readings, packed_[0], &next_);
   if (scene_.smoothing) {
-    followed_ = SmoothBlock(&readings, 1, followed_, &estimate);
+    followed_ = SmoothBlock(&readings, 1, followed_, &next_);
   } else {
-    Judge(readings, packed_[0], &estimate);
+    Judge(readings, packed_[0], &next_);
   }
-  return estimate;
 }
 
 bool FrameEstimator::SearchNext(const Measurements& readings,

@@ -57,15 +57,14 @@ struct FrameEstimate {
   /// one is 0 if the status is no_contact, else NaN.
   ContactEstimates contact;
   // The two parts of the covariance of (l_c, f_c) of each contact. LogEstimator
-  // leaves them empty. They are on the heap: most frames of a log are free, and
-  // an estimate is mostly a copy of memory.
+  // leaves them empty.
 
   /// Due to the std given in the finger and the scene, without noise_scale().
   /// It is that of the frame alone, also if the frame is smoothed.
-  Eigen::MatrixXd noise_covariance;
+  ContactMatrix noise_covariance;
   /// Due to the errors of the calibration. Empty if the finger has no
   /// covariance.
-  Eigen::MatrixXd calibration_covariance;
+  ContactMatrix calibration_covariance;
   /// Of the one contact of the frame alone, where it is curved.
   std::optional<Valley> valley;
   Eigen::Vector3d tip_pose =

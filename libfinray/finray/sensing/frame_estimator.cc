@@ -37,13 +37,8 @@ double LocalStd(const FrameEstimate& estimate, int k) {
                           std::sqrt(estimate.calibration_covariance(k, k)));
 }
 
-void CheckScene(const Finger& finger, const Scene& scene, FrameMethod method) {
+void CheckScene(const Finger& finger, const Scene& scene) {
   RefuseBackContacts(scene);
-  if (scene.UsesCamera() && method == FrameMethod::kFast) {
-    throw InputError(
-        "scene: pin_std_mm and tip_std_mm are measurements for the Ceres "
-        "solver only; expected --solver ceres");
-  }
   const int contacts = scene.contacts.value_or(1);
   if (contacts > kFittedContacts) {
     throw InputError("scene: " + std::to_string(contacts) +
@@ -74,7 +69,7 @@ void CheckScene(const Finger& finger, const Scene& scene, FrameMethod method) {
 FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
                                const Discretization& discretization,
                                FrameMethod method)
-    : finger_((CheckScene(finger, scene, method), finger)),
+    : finger_((CheckScene(finger, scene), finger)),
       scene_(scene),
       discretization_(discretization),
       method_(method),
@@ -82,6 +77,7 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
       search_(finger, scene, discretization, method),
       systematic_(finger, scene, discretization),
       free_(FreeEstimate(finger, discretization)) {
+  unsolved_.rib_tension_N.assign(free_.rib_tension_N.size(), kNaN);
   if (scene.gauge_offset_walk) {
     offsets_.emplace(finger, *scene.gauge_offset_walk,
                      search_.table().free_angles());
@@ -99,7 +95,8 @@ FrameEstimator::FrameEstimator(const FrameEstimator& other)
               other.search_.tables()),
       systematic_(other.systematic_),
       offsets_(other.offsets_),
-      free_(other.free_) {
+      free_(other.free_),
+      unsolved_(other.unsolved_) {
   if (offsets_) offsets_->Restart();
 }
 
@@ -195,14 +192,14 @@ void FrameEstimator::Explain(const Measurements& readings,
                              FrameEstimate* estimate) {
   const int contacts = scene_.contacts.value_or(1);
   if (packed.gauges + packed.camera < 1 || packed.all < kUnknowns * contacts) {
-    *estimate = Unsolved(FrameStatus::kBadInput);
+    Unsolved(FrameStatus::kBadInput, estimate);
   } else if (scene_.contacts) {
     WithContacts(readings, packed, contacts, estimate);
   } else {
     Automatic(readings, packed, estimate);
   }
   if (!search_.ended()) return;
-  if (estimate->contacts == 0) *estimate = Unsolved(FrameStatus::kNotConverged);
+  if (estimate->contacts == 0) Unsolved(FrameStatus::kNotConverged, estimate);
   estimate->search_ended = true;
 }
 
@@ -213,49 +210,51 @@ void FrameEstimator::Automatic(const Measurements& readings,
                                const PackedReadings& packed,
                                FrameEstimate* estimate) {
   if (packed.free_chi2 < kSignificance) return Free(packed, estimate);
-  FrameEstimate& one = *estimate;
-  one = Unsolved(FrameStatus::kNotConverged);
-  if (search_.Search(1, readings, packed)) {
+  Unsolved(FrameStatus::kNotConverged, estimate);
+  // Of the second contact.
+  const double significance =
+      search_.IsDoubted(packed) ? kDoubtedSignificance : kSecondSignificance;
+  const bool one = search_.Search(1, readings, packed);
+  if (one) {
     if (packed.free_chi2 - search_.best().chi2 < kSignificance) {
       return Free(packed, estimate);
     }
-    one = Found(readings, packed);
-    if (one.chi2 < kSecondSignificance) return;
+    Found(readings, packed, estimate);
   }
+  // If no search with one contact converges, two contacts must do what the
+  // first and the second have to do.
+  const double without =
+      one ? search_.best().chi2 : packed.free_chi2 - kSignificance;
   const int needed = 2 * kUnknowns;
-  if (scene_.most_contacts < 2 || packed.gauges < needed ||
-      scene_.object_std_mm) {
+  if (without < significance || scene_.most_contacts < 2 ||
+      packed.gauges < needed || scene_.object_std_mm) {
     return;
   }
+  // Errors of the calibration bend the readings of one contact too. A second
+  // one must explain more than they do.
+  const double model_without = one ? ModelChi2(readings, packed) : without;
+  if (model_without < significance) return;
   const int before = search_.iterations();
   if (!Fit(2, readings, packed)) return;
   const ContactSolution& two = search_.best();
   for (const PointContact& contact : two.contacts) {
     if (contact.normal_N < least_force_N_) return;
   }
-  // If no search with one contact has converged, two contacts must do what the
-  // first and the second have to do.
-  const double without =
-      one.contacts == 1 ? one.chi2 : packed.free_chi2 - kSignificance;
-  if (without - two.chi2 < kSecondSignificance) return;
-  if (one.contacts == 1 && !IsSecondCertain(readings, packed, one)) return;
-  *estimate = Found(readings, packed);
+  if (without - two.chi2 < significance) return;
+  if (one && model_without - ModelChi2(readings, packed) < significance) {
+    return;
+  }
+  Found(readings, packed, estimate);
   estimate->iterations += before;
 }
 
-// Errors of the calibration bend the readings of one contact too. A second one
-// must explain more than they do.
-bool FrameEstimator::IsSecondCertain(const Measurements& readings,
-                                     const PackedReadings& packed,
-                                     const FrameEstimate& one) {
-  if (systematic_.empty() || packed.camera > 0) return true;
-  const ContactSolution& two = search_.best();
-  const double friction = search_.friction();
-  const double without = systematic_.Chi2(
-      {{one.contact[0].arc_mm, one.contact[0].normal_N, friction}}, readings);
-  const double with =
-      systematic_.Chi2({two.contacts.begin(), two.contacts.end()}, readings);
-  return without - with >= kSecondSignificance;
+// chi2 of the best solution with the errors that the calibration may have.
+double FrameEstimator::ModelChi2(const Measurements& readings,
+                                 const PackedReadings& packed) {
+  const ContactSolution& best = search_.best();
+  if (systematic_.empty() || packed.camera > 0) return best.chi2;
+  contacts_.assign(best.contacts.begin(), best.contacts.begin() + best.count);
+  return systematic_.Chi2(contacts_, readings);
 }
 
 void FrameEstimator::WithContacts(const Measurements& readings,
@@ -263,8 +262,7 @@ void FrameEstimator::WithContacts(const Measurements& readings,
                                   FrameEstimate* estimate) {
   if (contacts == 0) return Free(packed, estimate);
   if (!Fit(contacts, readings, packed)) {
-    *estimate = Unsolved(FrameStatus::kNotConverged);
-    return;
+    return Unsolved(FrameStatus::kNotConverged, estimate);
   }
   const ContactSolution& best = search_.best();
   for (int c = 0; c < best.count; ++c) {
@@ -272,7 +270,7 @@ void FrameEstimator::WithContacts(const Measurements& readings,
       return WithContacts(readings, packed, contacts - 1, estimate);
     }
   }
-  *estimate = Found(readings, packed);
+  Found(readings, packed, estimate);
 }
 
 bool FrameEstimator::Fit(int contacts, const Measurements& readings,
@@ -290,17 +288,17 @@ void FrameEstimator::Free(const PackedReadings& packed,
   estimate->dof = packed.gauges + packed.camera;
 }
 
-FrameEstimate FrameEstimator::Unsolved(FrameStatus status) const {
-  FrameEstimate estimate;
-  estimate.status = status;
-  estimate.rib_tension_N.assign(free_.rib_tension_N.size(), kNaN);
-  return estimate;
+void FrameEstimator::Unsolved(FrameStatus status,
+                              FrameEstimate* estimate) const {
+  *estimate = unsolved_;
+  estimate->status = status;
 }
 
-FrameEstimate FrameEstimator::Found(const Measurements& readings,
-                                    const PackedReadings& packed) {
+void FrameEstimator::Found(const Measurements& readings,
+                           const PackedReadings& packed, FrameEstimate* to) {
   const ContactSolution& best = search_.best();
-  FrameEstimate estimate;
+  FrameEstimate& estimate = *to;
+  estimate = unsolved_;
   estimate.contacts = best.count;
   CopyContacts(best, &estimate.contact);
   estimate.tip_pose = best.tip_pose;
@@ -311,7 +309,7 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings,
 
   const ContactMatrix covariance = CovarianceOf(best.information);
   estimate.noise_covariance = covariance;
-  ExplainByModelErrors(readings, packed, &estimate);
+  ExplainByModelErrors(readings, packed, to);
   const double scale = estimate.noise_scale();
   for (int c = 0; c < best.count; ++c) {
     ContactEstimate& contact = estimate.contact[c];
@@ -343,7 +341,14 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings,
     CopyContacts(*rival, &estimate.alternative);
     estimate.alternative_chi2 = rival->chi2;
   }
-  return estimate;
+}
+
+void FrameEstimator::SetContacts(const FrameEstimate& estimate) {
+  contacts_.clear();
+  for (int c = 0; c < estimate.contacts; ++c) {
+    contacts_.push_back({estimate.contact[c].arc_mm,
+                         estimate.contact[c].normal_N, search_.friction()});
+  }
 }
 
 // Rare only for a finger that is well known: it solves an equilibrium.
@@ -354,11 +359,7 @@ void FrameEstimator::ExplainByModelErrors(const Measurements& readings,
       !(estimate->p_value() < FrameEstimate::kUnexplained)) {
     return;
   }
-  contacts_.clear();
-  for (int c = 0; c < estimate->contacts; ++c) {
-    contacts_.push_back({estimate->contact[c].arc_mm,
-                         estimate->contact[c].normal_N, search_.friction()});
-  }
+  SetContacts(*estimate);
   estimate->model_chi2 = systematic_.Chi2(contacts_, readings);
 }
 
@@ -373,11 +374,7 @@ void FrameEstimator::Judge(const Measurements& readings,
   }
   estimate->SetNoise();
   if (!systematic_.empty()) {
-    contacts_.clear();
-    for (int c = 0; c < estimate->contacts; ++c) {
-      contacts_.push_back({estimate->contact[c].arc_mm,
-                           estimate->contact[c].normal_N, search_.friction()});
-    }
+    SetContacts(*estimate);
     estimate->calibration_covariance = systematic_.Of(contacts_, readings);
     if (estimate->contacts == 1 &&
         std::isfinite(estimate->calibration_covariance(0, 0))) {

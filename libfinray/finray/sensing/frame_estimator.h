@@ -19,8 +19,10 @@ namespace finray {
 ///
 /// `contacts: auto` takes a contact if it lowers chi2 by kSignificance or more.
 /// With four gauges or more it takes a second one if that lowers chi2 by
-/// another kSecondSignificance or more, also with the errors that the finger's
-/// calibration may have (CalibrationErrors::Chi2).
+/// another kSecondSignificance or more, with as many readings as unknowns
+/// kDoubtedSignificance, also with the errors that the finger's calibration may
+/// have (CalibrationErrors::Chi2). Frames whose chi2 with one contact is less
+/// are not searched for two.
 ///
 /// The scene's gauge_offset_walk counts in Next() only (LiveOffsets).
 ///
@@ -48,6 +50,11 @@ class FrameEstimator {
   static constexpr double kSignificance = 13.8;  // chi2, 2 dof, p = 0.001
   /// A second contact can explain almost any reading, so it needs p = 1e-7.
   static constexpr double kSecondSignificance = 32.2;
+  /// Two contacts explain any reading of as many gauges as unknowns, a small
+  /// error of the finger too. There a second contact must do so much: an error
+  /// of 3.3 std in each of four gauges, with their noise, leaves a smaller
+  /// chi2.
+  static constexpr double kDoubtedSignificance = 100;
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLeastForce = 0.05;  ///< In units of EI / l_0^2.
   static constexpr double kLargestArcStd = 0.05;
@@ -85,11 +92,12 @@ class FrameEstimator {
   /// frames before smooth it. Another explanation of two contacts that are
   /// followed may be noticed up to twelve frames late, while EstimateBlock then
   /// searches the frames before, too.
-  FrameEstimate Next(const Measurements& readings);
-  /// Makes what frames with one contact and the scene's friction would make
-  /// when they first need it, so that none of them waits.
-  void Prepare() const {
-    if (method_ == FrameMethod::kFast) search_.tables()->surface().MakeAll();
+  /// The result is good until the next call.
+  const FrameEstimate& Next(const Measurements& readings);
+  /// Makes what frames with the scene's friction would make when they first
+  /// need it, so that none of them waits.
+  void Prepare() {
+    search_.Prepare();
     systematic_.Prepare();
   }
   /// The next call of Next() starts a new log.
@@ -124,7 +132,7 @@ class FrameEstimator {
   bool Slides(const Measurements& readings) const;
   FrameEstimate EstimateSliding(const Measurements& readings);
   FrameEstimate EstimateAlone(const Measurements& readings);
-  FrameEstimate NextAlone(const Measurements& readings);
+  void NextAlone(const Measurements& readings);
   // Packs the readings and finds their chi2 without a contact.
   void PackAll(const Measurements* readings, std::size_t count);
   void SearchAlone(const Measurements& readings, const PackedReadings& packed,
@@ -145,17 +153,19 @@ class FrameEstimator {
                        const LogPrior& before, FrameEstimate* estimates);
   void Automatic(const Measurements& readings, const PackedReadings& packed,
                  FrameEstimate* estimate);
-  bool IsSecondCertain(const Measurements& readings,
-                       const PackedReadings& packed, const FrameEstimate& one);
+  double ModelChi2(const Measurements& readings, const PackedReadings& packed);
   void WithContacts(const Measurements& readings, const PackedReadings& packed,
                     int contacts, FrameEstimate* estimate);
   // Searches, or follows if following_two_.
   bool Fit(int contacts, const Measurements& readings,
            const PackedReadings& packed);
   void Free(const PackedReadings& packed, FrameEstimate* estimate) const;
-  FrameEstimate Unsolved(FrameStatus status) const;
-  FrameEstimate Found(const Measurements& readings,
-                      const PackedReadings& packed);
+  void Unsolved(FrameStatus status, FrameEstimate* estimate) const;
+  // The best solution of the search as an estimate.
+  void Found(const Measurements& readings, const PackedReadings& packed,
+             FrameEstimate* to);
+  // Sets contacts_ to those of an estimate.
+  void SetContacts(const FrameEstimate& estimate);
   void ExplainByModelErrors(const Measurements& readings,
                             const PackedReadings& packed,
                             FrameEstimate* estimate);
@@ -177,7 +187,7 @@ class FrameEstimator {
   std::vector<PointContact> contacts_;
   std::optional<LiveOffsets> offsets_;  // where they wander, for Next
   LogPrior followed_;                   // by Next, if the scene has smoothing
-  FrameEstimate free_;
+  FrameEstimate free_, unsolved_, next_;
   std::unique_ptr<FrameEstimator> reversed_;  // made when needed
   std::vector<PackedReadings> packed_;        // of the frames under way
 };

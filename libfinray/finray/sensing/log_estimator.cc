@@ -30,10 +30,6 @@ const Finger& Checked(const Finger& finger, const Scene& scene) {
                      " cannot be estimated with the whole log; 0, 1 and auto "
                      "can");
   }
-  if (scene.UsesCamera()) {
-    throw InputError(
-        "scene: pin_std_mm and tip_std_mm cannot be used with the whole log");
-  }
   if (scene.presliding_mm) {
     throw InputError("scene: presliding_mm cannot be used with the whole log");
   }

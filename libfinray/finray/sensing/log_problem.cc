@@ -91,7 +91,8 @@ LogProblem::LogProblem(const Finger& finger, const Scene& scene,
                   scene.circle_radius_mm()),
       evaluations_(finger, discretization, EquilibriumForm::kReduced,
                    parameters_.shared(), threads),
-      free_(&evaluations_.Add(0, scene.friction_coefficient, nullptr)),
+      free_(&evaluations_.Add(0, scene.friction_coefficient, nullptr,
+                              scene.pin_std_mm.has_value())),
       evaluation_of_(frames->size(), free_),
       loss_(std::make_unique<ceres::HuberLoss>(kHuberScale)),
       readings_(frames->size()),
@@ -112,7 +113,8 @@ LogProblem::LogProblem(const Finger& finger, const Scene& scene,
     contact(t)[1] = frame.normal_N;
     problem_->AddParameterBlock(contact(t), 2);
     evaluation_of_[t] =
-        &evaluations_.Add(1, scene.friction_coefficient, contact(t));
+        &evaluations_.Add(1, scene.friction_coefficient, contact(t),
+                          scene.pin_std_mm.has_value());
     if (frame.state.q.size() > 0) evaluation_of_[t]->set_state(frame.state);
   }
   CountTouches();
@@ -139,7 +141,10 @@ void LogProblem::AddReadings(std::size_t t) {
   }
   MeasurementModel model = model_;
   for (double& std : model.gauge_std_V) std *= frame.noise_scale;
-  if (model.object_std_mm) *model.object_std_mm *= frame.noise_scale;
+  for (auto* std :
+       {&model.object_std_mm, &model.pin_std_mm, &model.tip_std_mm}) {
+    if (*std) **std *= frame.noise_scale;
+  }
   for (FrameBlock& block :
        MeasurementBlocks(frame.row, model, parameters, finger_.gauges,
                          evaluation_of_[t], contact(t))) {

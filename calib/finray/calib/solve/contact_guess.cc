@@ -61,11 +61,12 @@ ContactGuess::ContactGuess(CalibrationProblem* problem, bool many)
       plan_(WithoutLoss(problem->plan())),
       solver_(NearSolver(*problem)),
       table_(TableOf(*problem)),
-      surface_(many ? std::make_shared<const ModelSurface>(SurfaceOf(
-                          *problem, kGuess_std, kGuess_rad, false))
+      surface_(many ? std::make_shared<const ModelSurface>(
+                          SurfaceOf(*problem, kGuess_std, kGuess_rad, false))
                     : nullptr),
       linearizer_(Linearizer()) {
-  const auto gauges = static_cast<Eigen::Index>(problem->finger().gauges.size());
+  const auto gauges =
+      static_cast<Eigen::Index>(problem->finger().gauges.size());
   const Eigen::Index size = gauges + (RadiusOf(*problem) ? 2 : 0);
   values_.resize(size);
   weights_.resize(size);
@@ -87,8 +88,8 @@ FrameLinearizer ContactGuess::Linearizer() const {
 }
 
 ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
-  const bool by_object = problem_.plan().scene.circle_radius_mm() &&
-                         frame.object_mm.allFinite();
+  const bool by_object =
+      problem_.plan().scene.circle_radius_mm() && frame.object_mm.allFinite();
   Take(frame, by_object, !by_object || from == From::kAll);
   // A fit makes the finger meet the circle exactly. The data may not tell the
   // common scale of all stiffnesses and forces, which then stays as given only
