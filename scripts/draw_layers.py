@@ -32,6 +32,7 @@ ROWS = [
     [("sensing", "contacts from gauges: search, fit, status, uncertainty; sensing/fast: what exists for speed")],
     [("fit", "the contact of one frame fitted to its blocks, linearised by contact and parameters")],
     [("residuals", "the heart: a frame's measurements as Ceres blocks, for sensing and calib alike")],
+    [("model", "a finger under load: outputs and derivatives, by statics or Chebyshev polynomials")],
     [("scene", "what an experiment contains; measurements of a row, their reader; simulation")],
     [("objects", "outlines, clearance, tangency, contact of an object")],
     [("statics", "the face of the physics: equilibrium, sensitivities, shape, load path")],

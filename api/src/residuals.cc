@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/residuals/frame_evaluation.h"
+#include "finray/model/frame_evaluation.h"
 #include "finray/residuals/frame_set.h"
 #include "inside.h"
 
@@ -141,9 +141,7 @@ FrameResiduals::FrameResiduals(const Finger& finger, int contacts,
       unloaded.push_back(of.front_length_mm * (c + 1) / (contacts + 1));
       unloaded.push_back(0);
     }
-    evaluation.Update(unloaded.data(), start.ln_front_stiffness,
-                      start.ln_back_stiffness, start.rib_lengths_mm.data(),
-                      nullptr, &solver);
+    evaluation.Update(unloaded.data(), start, &solver);
     if (!evaluation.valid()) {
       throw InputError(of.name + ": the unloaded finger has no equilibrium");
     }

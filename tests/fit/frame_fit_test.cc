@@ -30,9 +30,7 @@ class AtPoint : public ceres::EvaluationCallback {
 
   void PrepareForEvaluation(bool /*jacobians*/, bool /*new_point*/) override {
     evaluation_->set_state(LadderState::Undeformed(solver_->model()));
-    evaluation_->Update(contact_, at_.ln_front_stiffness, at_.ln_back_stiffness,
-                        at_.rib_lengths_mm.data(), at_.effect_values.data(),
-                        solver_);
+    evaluation_->Update(contact_, at_, solver_);
   }
 
  private:

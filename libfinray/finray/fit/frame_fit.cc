@@ -110,19 +110,15 @@ ContactVector OnBounds(ContactVector contacts, const ContactVector& unit,
 
 bool FrameFit::Linearize(const Frame& frame, const StartState& start,
                          LinearizedFrame* out) {
-  Begin(start);
-  return Evaluate(frame, true, out);
-}
-
-void FrameFit::Begin(const StartState& start) {
-  start_ = &start;
-  is_near_ = solver_is_near_ = false;
+  model_.Begin(start);
   evaluations_ = 0;
+  return Evaluate(frame, true, out);
 }
 
 bool FrameFit::Fit(const Frame& frame, const StartState& start,
                    LinearizedFrame* out, const Ending& ending) {
-  Begin(start);
+  model_.Begin(start);
+  evaluations_ = 0;
   const bool wants_all = !ending.takes_last_step;
   bool complete = wants_all && settled_;
   converged_ = false;
@@ -130,9 +126,9 @@ bool FrameFit::Fit(const Frame& frame, const StartState& start,
     out->rows.clear();
     return false;
   }
-  Stay(frame);
+  model_.Stay();
   // The surface leaves the derivatives by the parameters to the last step.
-  complete |= !by_surface_;
+  complete |= !by_surface();
   settled_ = true;
   Descend(frame, ending, &complete, out);
   if (!wants_all) return true;
@@ -151,8 +147,7 @@ void FrameFit::Descend(const Frame& frame, const Ending& ending, bool* complete,
   Eigen::Map<Eigen::VectorXd> contacts(frame.contacts, unknowns);
   ContactVector best = contacts;
   const ContactVector unit = UnitOf(unknowns);
-  const double most_force =
-      shared_.most_force_N / ForceUnit(solver_.model().finger());
+  const double most_force = shared_.most_force_N / ForceUnit(model_.finger());
   ContactMatrix curvature = ContactMatrix::Zero(unknowns, unknowns);
   double damping = 0;
   // The last trial was, and one since the last step had no values.
@@ -187,9 +182,9 @@ void FrameFit::Descend(const Frame& frame, const Ending& ending, bool* complete,
                       GradientOf(*out, tried_, unit),
                       GradientOf(tried_, tried_, unit), &curvature);
       best = contacts;
-      Stay(frame);
+      model_.Stay();
       std::swap(*out, tried_);
-      *complete = all || !by_surface_;
+      *complete = all || !by_surface();
       rejected = failed = false;
       damping /= 10;
       if (damping < 1e-6) damping = 0;
@@ -213,7 +208,7 @@ void FrameFit::Descend(const Frame& frame, const Ending& ending, bool* complete,
 }
 
 ContactVector FrameFit::UnitOf(int unknowns) const {
-  const Finger& finger = solver_.model().finger();
+  const Finger& finger = model_.finger();
   ContactVector unit(unknowns);
   for (int k = 0; k < unknowns; ++k) {
     unit[k] = k % 2 == 0 ? finger.front_length_mm : ForceUnit(finger);
@@ -221,65 +216,13 @@ ContactVector FrameFit::UnitOf(int unknowns) const {
   return unit;
 }
 
-void FrameFit::Stay(const Frame& frame) {
-  if (frame.evaluation == nullptr || by_surface_) return;
-  std::swap(near_, reached_);
-  solver_is_near_ = true;
-}
-
-bool FrameFit::Solve(const Frame& frame) {
-  if (!is_near_) {
-    (*start_)(frame.contacts, &near_);
-    is_near_ = true;
-    // The solver drops the mesh that another frame has refined. Otherwise
-    // results would depend on which thread had which frame. A state of the
-    // table brings its mesh along.
-    if (near_.q.size() == 0) solver_.Reset();
-  }
-  FrameEvaluation& evaluation = *frame.evaluation;
-  // Where the solver is there already, it knows the way on.
-  if (solver_is_near_) {
-    evaluation.StartFromSolver();
-  } else if (near_.q.size() > 0) {
-    evaluation.set_state(near_);
-  } else {
-    evaluation.set_state(LadderState::Undeformed(solver_.model()));
-  }
-  solver_is_near_ = false;
-  evaluation.set_by_parameter(shared_.columns > 0);
-  const SharedParameters& at = *shared_.parameters;
-  evaluation.PlaceGauges(at.gauge_starts_mm.data(), at.gauge_lengths_mm.data());
-  evaluation.Update(frame.contacts, at.ln_front_stiffness, at.ln_back_stiffness,
-                    at.rib_lengths_mm.data(), at.effect_values.data(),
-                    &solver_);
-  if (!evaluation.valid()) return false;
-  reached_ = evaluation.state();
-  return true;
-}
-
-bool FrameFit::TakeFromSurface(const Frame& frame, bool all) {
-  FrameEvaluation& evaluation = *frame.evaluation;
-  if (shared_.surface == nullptr || !evaluation.FitsSurface()) return false;
-  const Finger& finger = solver_.model().finger();
-  auto [arc_mm, normal_N] =
-      evaluation.contacts() == 1
-          ? std::array<double, 2>{frame.contacts[0], frame.contacts[1]}
-          : FreeContact(finger);
-  arc_mm = std::clamp(arc_mm, 0.0, finger.front_length_mm);
-  if (!shared_.surface->Evaluate(arc_mm, normal_N, all, &values_)) return false;
-  evaluation.Take(frame.contacts, values_.outputs, values_.d_outputs,
-                  values_.by_place);
-  return true;
-}
-
 bool FrameFit::Evaluate(const Frame& frame, bool all, LinearizedFrame* out) {
   ++evaluations_;
-  by_surface_ = false;
-  if (frame.evaluation != nullptr) {
-    by_surface_ = TakeFromSurface(frame, all);
-    if (!by_surface_ && (!shared_.solves || !Solve(frame))) return false;
+  const bool modelled = frame.evaluation != nullptr;
+  if (modelled && !model_.Evaluate(frame.contacts, all, frame.evaluation)) {
+    return false;
   }
-  all = shared_.columns > 0 && (all || !by_surface_);
+  all = shared_.columns > 0 && (all || !modelled || !by_surface());
   int rows = 0;
   for (const FrameBlock& block : *frame.blocks) {
     rows += block.cost->num_residuals();

@@ -4,9 +4,7 @@
 #include <ceres/loss_function.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -14,9 +12,8 @@
 
 #include "finray/fit/contact_step.h"
 #include "finray/fit/linearized_frame.h"
+#include "finray/model/finger_model.h"
 #include "finray/residuals/frame_blocks.h"
-#include "finray/residuals/model_surface.h"
-#include "finray/statics/equilibrium.h"
 
 namespace finray {
 
@@ -55,20 +52,13 @@ class FrameFit {
     double* contacts = nullptr;  ///< (l_c, f_c) of each
   };
 
-  /// Gives the state that the first solve of a frame's equilibrium starts from,
-  /// near the contacts where the fit has come to; an empty one for the
-  /// undeformed finger. It is not called where the surface gives all values.
-  using StartState =
-      std::function<void(const double* contacts, LadderState* state)>;
+  using StartState = FingerModel::StartState;
 
   /// The effects of `solver` must be those of the parameters.
   FrameFit(EquilibriumSolver solver, Shared shared)
-      : solver_(std::move(solver)), shared_(std::move(shared)) {}
-
-  /// Wherever it is, a contact without force is the free finger.
-  static std::array<double, 2> FreeContact(const Finger& finger) {
-    return {finger.front_length_mm / 2, 0};
-  }
+      : shared_(std::move(shared)),
+        model_(std::move(solver), {shared_.parameters, shared_.surface,
+                                   shared_.solves, shared_.columns > 0}) {}
 
   /// Linearises the frame with its contacts where they are, without
   /// LinearizedFrame::Eliminate. A free frame does not use the contacts.
@@ -108,13 +98,12 @@ class FrameFit {
   bool converged() const { return converged_; }
   /// Evaluations of the model by the last fit.
   int evaluations() const { return evaluations_; }
-  /// The last evaluation needed no solve. Then error() says about how far its
-  /// outputs may be off, in units of the surface's resolution.
-  bool by_surface() const { return by_surface_; }
-  double error() const { return values_.error; }
+  /// FingerModel::by_surface and error of the last evaluation.
+  bool by_surface() const { return model_.by_surface(); }
+  double error() const { return model_.error(); }
 
-  EquilibriumSolver& solver() { return solver_; }
-  const EquilibriumSolver& solver() const { return solver_; }
+  EquilibriumSolver& solver() { return model_.solver(); }
+  const EquilibriumSolver& solver() const { return model_.solver(); }
 
  private:
   // The parameters of a block and where their derivatives go.
@@ -126,7 +115,6 @@ class FrameFit {
     std::vector<std::vector<double>> scratch;
   };
 
-  void Begin(const StartState& start);
   // Moves the contacts from where the frame is linearised. `complete` says
   // whether `out` has the derivatives by the parameters.
   void Descend(const Frame& frame, const Ending& ending, bool* complete,
@@ -134,24 +122,15 @@ class FrameFit {
   ContactVector UnitOf(int unknowns) const;  // mm and N
   // With `all` false, the derivatives by the parameters may be left undefined.
   bool Evaluate(const Frame& frame, bool all, LinearizedFrame* out);
-  bool TakeFromSurface(const Frame& frame, bool all);
-  bool Solve(const Frame& frame);
-  // The next solve starts where the last evaluation was.
-  void Stay(const Frame& frame);
   KnownBlock& Known(const Frame& frame, std::size_t index);
   void AddBlock(const FrameBlock& block, bool all, KnownBlock* known,
                 LinearizedFrame* out);
 
-  EquilibriumSolver solver_;
   Shared shared_;
+  FingerModel model_;
   std::vector<KnownBlock> known_;  // by index of the block
 
-  // These belong to the fit under way. near_ is where its next solve starts, if
-  // is_near_; reached_ is where the last one ended, unless by_surface_.
-  const StartState* start_ = nullptr;
-  bool is_near_ = false, by_surface_ = false;
-  bool solver_is_near_ = false;  // the solver is at near_
-  LadderState near_, reached_;
+  // These belong to the fit under way.
   int evaluations_ = 0;
   bool converged_ = false;
   // The last contact stayed where it was. If the next one does too, the
@@ -159,7 +138,6 @@ class FrameFit {
   // depend on it.
   bool settled_ = false;
   LinearizedFrame tried_;
-  ModelSurface::Values values_;
 };
 
 }  // namespace finray

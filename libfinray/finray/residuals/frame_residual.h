@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "finray/residuals/frame_evaluation.h"
+#include "finray/model/frame_evaluation.h"
 
 namespace finray {
 

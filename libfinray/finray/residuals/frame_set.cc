@@ -1,31 +1,11 @@
 #include "finray/residuals/frame_set.h"
 
 #include <atomic>
-#include <cmath>
 #include <utility>
 
 #include "finray/residuals/parallel_frames.h"
 
 namespace finray {
-
-SharedParameters SharedParameters::Of(const Finger& finger,
-                                      std::vector<FingerParameter> effects) {
-  SharedParameters shared;
-  shared.ln_front_stiffness = std::log(finger.front_stiffness_N_mm2);
-  shared.ln_back_stiffness = std::log(finger.back_stiffness_N_mm2);
-  for (const Rib& rib : finger.ribs) {
-    shared.rib_lengths_mm.push_back(rib.length_mm);
-  }
-  for (const Gauge& gauge : finger.gauges) {
-    shared.gauge_starts_mm.push_back(gauge.start_mm);
-    shared.gauge_lengths_mm.push_back(gauge.length_mm);
-  }
-  for (const FingerParameter& effect : effects) {
-    shared.effect_values.push_back(ParameterValue(finger, effect));
-  }
-  shared.effects = std::move(effects);
-  return shared;
-}
 
 FrameSet::FrameSet(const Finger& finger, const Discretization& discretization,
                    EquilibriumForm form, const SharedParameters* shared,
@@ -79,11 +59,7 @@ void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
       frame.evaluation.Invalidate();
       return;
     }
-    frame.evaluation.PlaceGauges(shared_->gauge_starts_mm.data(),
-                                 shared_->gauge_lengths_mm.data());
-    frame.evaluation.Update(
-        frame.unknowns, shared_->ln_front_stiffness, shared_->ln_back_stiffness,
-        shared_->rib_lengths_mm.data(), shared_->effect_values.data(), solver);
+    frame.evaluation.Update(frame.unknowns, *shared_, solver);
     if (form_ == EquilibriumForm::kReduced) {
       const double took = 1.0 * solver->iterations() * solver->unknowns();
       for (double work = work_;

@@ -82,11 +82,8 @@ double RowFit::FreeChi2() {
   FrameEvaluation& evaluation = *frame.evaluation;
   if (!evaluation.valid()) {
     EquilibriumSolver solver = frames_.solver();
-    const SharedParameters& shared = *frames_.parameters().shared();
     evaluation.set_state({});
-    evaluation.Update(nullptr, shared.ln_front_stiffness,
-                      shared.ln_back_stiffness, shared.rib_lengths_mm.data(),
-                      shared.effect_values.data(), &solver);
+    evaluation.Update(nullptr, *frames_.parameters().shared(), &solver);
   }
   double chi2 = 0;
   for (const FrameBlock& block : *frame.blocks) {

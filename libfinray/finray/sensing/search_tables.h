@@ -4,7 +4,7 @@
 #include <memory>
 #include <mutex>
 
-#include "finray/residuals/model_surface.h"
+#include "finray/model/model_surface.h"
 #include "finray/scene/scene.h"
 #include "finray/sensing/gauge_table.h"
 #include "finray/sensing/pair_table.h"

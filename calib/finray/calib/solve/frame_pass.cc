@@ -40,7 +40,7 @@ void MakeCells(const std::vector<int>& frames, const Contacts& contacts,
     const CalibrationFrame& frame = problem.frame(i);
     if (!FrameLinearizer::FitsSurface(frame, problem.parameters())) continue;
     wanted.push_back(frame.contact ? contacts[i]
-                                   : FrameFit::FreeContact(problem.finger()));
+                                   : FingerModel::FreeContact(problem.finger()));
   }
   surface.MakeFor(wanted);
 }

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "finray/calib/problem/calibration_problem.h"
-#include "finray/residuals/model_surface.h"
+#include "finray/model/model_surface.h"
 
 namespace finray {
 

@@ -1,4 +1,4 @@
-#include "finray/residuals/model_surface.h"
+#include "finray/model/model_surface.h"
 
 #include <algorithm>
 #include <memory>
@@ -37,11 +37,7 @@ struct ModelSurface::Model {
 
   bool Update(double arc_mm, double normal_N) {
     const double contact[] = {arc_mm, normal_N};
-    frame.PlaceGauges(shared.gauge_starts_mm.data(),
-                      shared.gauge_lengths_mm.data());
-    frame.Update(contact, shared.ln_front_stiffness, shared.ln_back_stiffness,
-                 shared.rib_lengths_mm.data(), shared.effect_values.data(),
-                 &solver);
+    frame.Update(contact, shared, &solver);
     return frame.valid();
   }
 

@@ -1,5 +1,5 @@
-#ifndef FINRAY_STATICS_LOAD_CELL_H_
-#define FINRAY_STATICS_LOAD_CELL_H_
+#ifndef FINRAY_MODEL_LOAD_CELL_H_
+#define FINRAY_MODEL_LOAD_CELL_H_
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <mutex>
 #include <vector>
 
-#include "finray/statics/chebyshev.h"
-#include "finray/statics/load_polynomial.h"
+#include "finray/model/chebyshev.h"
+#include "finray/model/load_polynomial.h"
 
 namespace finray {
 
@@ -109,4 +109,4 @@ class LoadCell {
 
 }  // namespace finray
 
-#endif  // FINRAY_STATICS_LOAD_CELL_H_
+#endif  // FINRAY_MODEL_LOAD_CELL_H_

@@ -1,10 +1,11 @@
-#ifndef FINRAY_RESIDUALS_FRAME_EVALUATION_H_
-#define FINRAY_RESIDUALS_FRAME_EVALUATION_H_
+#ifndef FINRAY_MODEL_FRAME_EVALUATION_H_
+#define FINRAY_MODEL_FRAME_EVALUATION_H_
 
 #include <Eigen/Core>
 #include <array>
 #include <vector>
 
+#include "finray/model/shared_parameters.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -32,7 +33,7 @@ struct RowFriction {
 /// Rib pins are outputs only on request. A pin is then modelled as a contact
 /// without force at the rib's place. It bends nothing, and the equilibrium
 /// yields its pose with derivatives. Where gauges can be moved, so are their
-/// ends: PlaceGauges puts them anywhere, and the gauges' angles are read there.
+/// ends: Update puts them anywhere, and the gauges' angles are read there.
 ///
 /// The derivatives have one column for each parameter of FrameResidual, in its
 /// order: [frame unknowns | ln EI front | ln EI back | rib lengths (r) |
@@ -47,14 +48,14 @@ class FrameEvaluation {
                   double friction, bool pins = false,
                   bool movable_gauges = false, RowFriction row = {});
 
-  /// Moves the gauges, if they are movable, for the next Update(). That one
-  /// fails if a gauge is off its beam.
-  void PlaceGauges(const double* starts_mm, const double* lengths_mm);
-
-  /// Evaluates the model at frame unknowns and shared parameters. A pointer may
-  /// be null where its size is 0. `solver` is scratch memory: any solver of the
-  /// same finger, effects and discretization will do. Afterwards valid() says
-  /// whether the evaluation succeeded.
+  /// Evaluates the model at frame unknowns and shared parameters, with movable
+  /// gauges where these say. A pointer may be null where its size is 0.
+  /// `solver` is scratch memory: any solver of the same finger, effects and
+  /// discretization will do. Afterwards valid() says whether the evaluation
+  /// succeeded.
+  void Update(const double* frame, const SharedParameters& shared,
+              EquilibriumSolver* solver);
+  /// The same, with gauges where the last call put them.
   void Update(const double* frame, double ln_front_stiffness,
               double ln_back_stiffness, const double* rib_lengths_mm,
               const double* effects, EquilibriumSolver* solver);
@@ -135,6 +136,9 @@ class FrameEvaluation {
   void StartFromSolver() { from_solver_ = true; }
 
  private:
+  // Moves the gauges, if they are movable. on_beam_ is false afterwards if a
+  // gauge is off its beam.
+  void PlaceGauges(const double* starts_mm, const double* lengths_mm);
   void UpdateReduced(EquilibriumSolver* solver);
   void UpdateWeighted(const double* frame, EquilibriumSolver* solver);
   void SetWithoutPins(const Matrix& derivatives, Matrix* target) const;
@@ -162,4 +166,4 @@ class FrameEvaluation {
 
 }  // namespace finray
 
-#endif  // FINRAY_RESIDUALS_FRAME_EVALUATION_H_
+#endif  // FINRAY_MODEL_FRAME_EVALUATION_H_

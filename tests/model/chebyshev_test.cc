@@ -1,4 +1,4 @@
-#include "finray/statics/chebyshev.h"
+#include "finray/model/chebyshev.h"
 
 #include <gtest/gtest.h>
 

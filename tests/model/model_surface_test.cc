@@ -1,4 +1,4 @@
-#include "finray/residuals/model_surface.h"
+#include "finray/model/model_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "finray/statics/load_cell.h"
+#include "finray/model/load_cell.h"
 
 #include <cmath>
 #include <limits>

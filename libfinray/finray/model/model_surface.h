@@ -1,5 +1,5 @@
-#ifndef FINRAY_RESIDUALS_MODEL_SURFACE_H_
-#define FINRAY_RESIDUALS_MODEL_SURFACE_H_
+#ifndef FINRAY_MODEL_MODEL_SURFACE_H_
+#define FINRAY_MODEL_MODEL_SURFACE_H_
 
 #include <Eigen/Core>
 #include <array>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "finray/residuals/frame_set.h"
-#include "finray/statics/load_surface.h"
+#include "finray/model/frame_evaluation.h"
+#include "finray/model/load_surface.h"
 
 namespace finray {
 
@@ -75,4 +75,4 @@ class ModelSurface {
 
 }  // namespace finray
 
-#endif  // FINRAY_RESIDUALS_MODEL_SURFACE_H_
+#endif  // FINRAY_MODEL_MODEL_SURFACE_H_

@@ -1,4 +1,4 @@
-#include "finray/statics/load_polynomial.h"
+#include "finray/model/load_polynomial.h"
 
 #include "finray/ladder/instruction_set.h"
 

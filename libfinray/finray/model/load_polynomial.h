@@ -1,5 +1,5 @@
-#ifndef FINRAY_STATICS_LOAD_POLYNOMIAL_H_
-#define FINRAY_STATICS_LOAD_POLYNOMIAL_H_
+#ifndef FINRAY_MODEL_LOAD_POLYNOMIAL_H_
+#define FINRAY_MODEL_LOAD_POLYNOMIAL_H_
 
 #include "finray/ladder/round_up.h"
 
@@ -41,4 +41,4 @@ void EvaluateGradients(const LoadPolynomial& polynomial,
 
 }  // namespace finray
 
-#endif  // FINRAY_STATICS_LOAD_POLYNOMIAL_H_
+#endif  // FINRAY_MODEL_LOAD_POLYNOMIAL_H_

@@ -1,4 +1,4 @@
-#include "finray/statics/load_surface.h"
+#include "finray/model/load_surface.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "finray/statics/load_surface.h"
+#include "finray/model/load_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -82,7 +82,8 @@ TEST(LoadSurfaceTest, ACellIsHalvedWhereItsSeriesIsNotEnough) {
       ASSERT_TRUE(surface.Locate(l, f, &place));
       double gradients[3 * 4];
       surface.Gradients(place, 0, gradients);
-      const double off = gradients[0] - std::tanh(2 * (l - 4.4) + 0.3 * (f - 5));
+      const double off =
+          gradients[0] - std::tanh(2 * (l - 4.4) + 0.3 * (f - 5));
       EXPECT_LT(std::abs(off), 1e-6 * std::max(1.0, 4 * place.error()))
           << l << " " << f;
     }
@@ -141,7 +142,8 @@ TEST(LoadSurfaceTest, ThreadsShareCellsThatAreMadeWhenNeeded) {
       LoadSurface::Place place;
       double gradients[3 * 4];
       for (int i = 0; i < 100; ++i) {
-        if (surface.Locate(1, 1, &place)) surface.Gradients(place, 0, gradients);
+        if (surface.Locate(1, 1, &place))
+          surface.Gradients(place, 0, gradients);
       }
       *to = gradients[0];
     });
@@ -163,7 +165,8 @@ TEST(LoadSurfaceTest, AllCellsAreMadeBeforehandAsTheyAreWhenNeeded) {
       double gradients[2][3 * 4];
       surface.Gradients(made, 0, gradients[0]);
       lazy.Gradients(needed, 0, gradients[1]);
-      for (int i = 0; i < 3 * 4; ++i) EXPECT_EQ(gradients[0][i], gradients[1][i]);
+      for (int i = 0; i < 3 * 4; ++i)
+        EXPECT_EQ(gradients[0][i], gradients[1][i]);
     }
   }
   EXPECT_EQ(cells_made, 0);

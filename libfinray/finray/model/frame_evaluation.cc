@@ -1,4 +1,4 @@
-#include "finray/residuals/frame_evaluation.h"
+#include "finray/model/frame_evaluation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +64,14 @@ void FrameEvaluation::PlaceGauges(const double* starts_mm,
     on_beam_ = on_beam_ && ends[0].arc_mm >= 0 && lengths_mm[j] > 0 &&
                ends[1].arc_mm <= length;
   }
+}
+
+void FrameEvaluation::Update(const double* frame,
+                             const SharedParameters& shared,
+                             EquilibriumSolver* solver) {
+  PlaceGauges(shared.gauge_starts_mm.data(), shared.gauge_lengths_mm.data());
+  Update(frame, shared.ln_front_stiffness, shared.ln_back_stiffness,
+         shared.rib_lengths_mm.data(), shared.effect_values.data(), solver);
 }
 
 void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,

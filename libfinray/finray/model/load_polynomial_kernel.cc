@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "finray/ladder/registers.h"
-#include "finray/statics/load_polynomial.h"
+#include "finray/model/load_polynomial.h"
 
 namespace finray {
 inline namespace FINRAY_ISA {
@@ -36,8 +36,7 @@ void SumValues(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
 
 template <int n>
 void SumGradients(const LoadPolynomial& polynomial,
-                  const PolynomialBasis& basis, int* first,
-                  double* gradients) {
+                  const PolynomialBasis& basis, int* first, double* gradients) {
   const int stride = polynomial.values;
   for (; *first + n * kWidth <= stride; *first += n * kWidth) {
     const double* c = polynomial.c + *first;

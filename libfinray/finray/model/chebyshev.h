@@ -1,9 +1,9 @@
-#ifndef FINRAY_STATICS_CHEBYSHEV_H_
-#define FINRAY_STATICS_CHEBYSHEV_H_
+#ifndef FINRAY_MODEL_CHEBYSHEV_H_
+#define FINRAY_MODEL_CHEBYSHEV_H_
 
 #include <Eigen/Core>
 
-#include "finray/statics/load_polynomial.h"
+#include "finray/model/load_polynomial.h"
 
 namespace finray {
 
@@ -31,4 +31,4 @@ ChebyshevRows ChebyshevCoefficients(const ChebyshevRows& values, int u_terms,
 
 }  // namespace finray
 
-#endif  // FINRAY_STATICS_CHEBYSHEV_H_
+#endif  // FINRAY_MODEL_CHEBYSHEV_H_

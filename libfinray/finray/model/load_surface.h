@@ -1,13 +1,13 @@
-#ifndef FINRAY_STATICS_LOAD_SURFACE_H_
-#define FINRAY_STATICS_LOAD_SURFACE_H_
+#ifndef FINRAY_MODEL_LOAD_SURFACE_H_
+#define FINRAY_MODEL_LOAD_SURFACE_H_
 
 #include <array>
 #include <memory>
 #include <vector>
 
 #include "finray/finger/mesh.h"
-#include "finray/statics/load_cell.h"
-#include "finray/statics/load_polynomial.h"
+#include "finray/model/load_cell.h"
+#include "finray/model/load_polynomial.h"
 
 namespace finray {
 
@@ -85,4 +85,4 @@ class LoadSurface {
 
 }  // namespace finray
 
-#endif  // FINRAY_STATICS_LOAD_SURFACE_H_
+#endif  // FINRAY_MODEL_LOAD_SURFACE_H_
