@@ -12,7 +12,7 @@
 #include "finray/io/log_lines.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/measurement_columns.h"
-#include "finray/sensing/zeroed_finger.h"
+#include "finray/estimation/zeroed_finger.h"
 
 DEFINE_string(finger, "", "finger YAML to zero");
 DEFINE_string(scene, "", "scene YAML, for its columns and its friction");

@@ -29,9 +29,9 @@ ROWS = [
      ("perception", "outlines, stiffness"), ("control", "force control"), ("benchmark", "speed, error")],
     [("view", "pages of results, the live page and its server")],
     [("batch", "many logs: jobs, streams, result rows, summaries")],
-    [("sensing", "contacts from gauges: search, fit, status, uncertainty; sensing/fast: what exists for speed")],
+    [("estimation", "contacts from gauges: starts, competing minima, status; whole logs")],
     [("fit", "the contact of one frame fitted to its blocks, linearised by contact and parameters")],
-    [("residuals", "the heart: a frame's measurements as Ceres blocks, for sensing and calib alike")],
+    [("residuals", "the heart: a frame's measurements as Ceres blocks, for estimation and calib alike")],
     [("model", "a finger under load: outputs and derivatives, by statics or Chebyshev polynomials")],
     [("scene", "what an experiment contains; measurements of a row, their reader; simulation")],
     [("objects", "outlines, clearance, tangency, contact of an object")],
@@ -88,7 +88,7 @@ def peeks():
     """Files that include the fast kernel and are neither part of it nor of the code written for its speed."""
     for folder in ("libfinray/finray", "calib/finray", "apps"):
         for path in sorted((ROOT / folder).rglob("*")):
-            inside = re.search(r"/finray/(ladder|statics|sensing/fast|benchmark)/", str(path))
+            inside = re.search(r"/finray/(ladder/|statics/|model/|benchmark/|estimation/row_)", str(path))
             if path.suffix in (".h", ".cc") and not inside and '"finray/ladder/' in path.read_text(encoding="utf-8"):
                 yield f"{path.relative_to(ROOT)}: looks into ladder; statics/equilibrium.h is the face of the physics"
 

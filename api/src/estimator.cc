@@ -13,7 +13,7 @@
 #include "finray/batch/result_rows.h"
 #include "finray/io/usable_cores.h"
 #include "finray/scene/history_filter.h"
-#include "finray/sensing/log_estimator.h"
+#include "finray/estimation/log_estimator.h"
 #include "inside.h"
 
 namespace finray::v1 {

@@ -23,8 +23,8 @@
 #include "finray/perception/reconstruction.h"
 #include "finray/scene.h"
 #include "finray/scene/scene.h"
-#include "finray/sensing/frame_estimate.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimate.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/table.h"
 
 namespace finray::v1 {

@@ -7,8 +7,8 @@
 
 #include "apps/batch_fixture.h"
 #include "finray/io/frame_table.h"
-#include "sensing/uncertain_finger.h"
-#include "sensing/wandering_log.h"
+#include "estimation/uncertain_finger.h"
+#include "estimation/wandering_log.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -9,7 +9,7 @@
 
 #include "apps/batch_fixture.h"
 #include "finray/io/frame_table.h"
-#include "sensing/uncertain_finger.h"
+#include "estimation/uncertain_finger.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "finray/sensing/zeroed_finger.h"
+#include "finray/estimation/zeroed_finger.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -10,7 +10,7 @@
 
 #include "finray/batch/batch_estimation.h"
 #include "finray/statics/equilibrium.h"
-#include "sensing/uncertain_finger.h"
+#include "estimation/uncertain_finger.h"
 #include "test_finger.h"
 
 namespace finray {

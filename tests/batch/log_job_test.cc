@@ -14,7 +14,7 @@
 #include "finray/batch/log_stream.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
-#include "sensing/log_readings.h"
+#include "estimation/log_readings.h"
 #include "temp_file.h"
 #include "test_finger.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "finray/sensing/row_fit.h"
+#include "finray/estimation/row_fit.h"
 #include "test_finger.h"
 
 namespace finray {

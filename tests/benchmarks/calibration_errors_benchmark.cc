@@ -6,7 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "finray/fit/calibration_errors.h"
-#include "sensing/uncertain_finger.h"
+#include "estimation/uncertain_finger.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -17,10 +17,10 @@
 
 #include "finray/chain/sensing.h"
 #include "finray/ladder/instruction_set.h"
-#include "finray/sensing/frame_problem.h"
-#include "finray/sensing/gauge_table.h"
-#include "finray/sensing/row_fit.h"
-#include "sensing/gauge_log.h"
+#include "finray/estimation/frame_problem.h"
+#include "finray/estimation/gauge_table.h"
+#include "finray/estimation/row_fit.h"
+#include "estimation/gauge_log.h"
 
 namespace finray {
 namespace {

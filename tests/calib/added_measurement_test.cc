@@ -11,8 +11,8 @@
 #include "calib/standard_log.h"
 #include "finray/calib/solve/frame_linearizer.h"
 #include "finray/scene/clean_readings.h"
-#include "finray/sensing/frame_estimator.h"
-#include "finray/sensing/log_estimator.h"
+#include "finray/estimation/frame_estimator.h"
+#include "finray/estimation/log_estimator.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -10,7 +10,7 @@
 #include "calib/log_rows.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/objects/circle_centre.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

@@ -8,7 +8,7 @@
 #include "finray/batch/batch_estimation.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
-#include "sensing/log_readings.h"
+#include "estimation/log_readings.h"
 #include "temp_file.h"
 #include "test_finger.h"
 

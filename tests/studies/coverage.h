@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 #include "studies/ambiguity.h"
 #include "studies/gauge_frames.h"
 #include "test_finger.h"

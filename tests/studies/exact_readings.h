@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "finray/finger/geometry.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/statics/equilibrium.h"
 #include "studies/gauge_frames.h"
 

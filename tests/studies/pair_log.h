@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "finray/scene/clean_readings.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 #include "studies/gauge_frames.h"
 
 namespace finray {

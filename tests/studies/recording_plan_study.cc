@@ -14,7 +14,7 @@
 #include "finray/calib/design/recording_plan.h"
 #include "finray/objects/object_contact.h"
 #include "finray/scene/simulation.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 #include "studies/planned_log.h"
 #include "temp_file.h"
 #include "test_finger.h"

@@ -21,7 +21,7 @@
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/frame_table.h"
 #include "finray/scene/measurement_columns.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "finray/finger/finger_yaml.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 #include "studies/gauge_frames.h"
 
 namespace finray {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "finray/finger/finger_yaml.h"
-#include "finray/sensing/zeroed_finger.h"
+#include "finray/estimation/zeroed_finger.h"
 #include "finray/statics/equilibrium.h"
 #include "finray/view/live_feed.h"
 #include "finray/view/live_hub.h"

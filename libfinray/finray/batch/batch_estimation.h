@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 

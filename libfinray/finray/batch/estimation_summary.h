@@ -11,8 +11,8 @@
 #include "finray/io/yaml_emitter.h"
 #include "finray/io/yaml_map.h"
 #include "finray/scene/measurements.h"
-#include "finray/sensing/frame_estimator.h"
-#include "finray/sensing/walk_increments.h"
+#include "finray/estimation/frame_estimator.h"
+#include "finray/estimation/walk_increments.h"
 
 namespace finray {
 

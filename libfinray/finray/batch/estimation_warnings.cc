@@ -4,7 +4,7 @@
 
 #include "finray/finger/possible_reading.h"
 #include "finray/io/number_text.h"
-#include "finray/sensing/zeroed_finger.h"
+#include "finray/estimation/zeroed_finger.h"
 
 namespace finray {
 namespace {

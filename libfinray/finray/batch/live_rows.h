@@ -10,7 +10,7 @@
 #include "finray/batch/result_rows.h"
 #include "finray/io/frame_parser.h"
 #include "finray/scene/history_filter.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 

@@ -13,7 +13,7 @@
 #include "finray/batch/log_stream.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/resumable_file.h"
-#include "finray/sensing/hidden_forces.h"
+#include "finray/estimation/hidden_forces.h"
 
 namespace finray {
 

@@ -10,7 +10,7 @@
 #include "finray/batch/result_rows.h"
 #include "finray/io/error.h"
 #include "finray/scene/history_filter.h"
-#include "finray/sensing/log_estimator.h"
+#include "finray/estimation/log_estimator.h"
 
 namespace finray {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "finray/io/frame_parser.h"
 #include "finray/scene/measurement_columns.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 

@@ -7,7 +7,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"
-#include "finray/sensing/row_fit.h"
+#include "finray/estimation/row_fit.h"
 
 namespace finray {
 namespace {

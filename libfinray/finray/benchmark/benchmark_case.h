@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "finray/scene/scene.h"
-#include "finray/sensing/packed_readings.h"
+#include "finray/estimation/packed_readings.h"
 
 namespace finray {
 

@@ -8,7 +8,7 @@
 
 #include "finray/benchmark/benchmark_case.h"
 #include "finray/benchmark/statistics.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "finray/fit/contact_covariance.h"
-#include "finray/sensing/row_fit.h"
+#include "finray/estimation/row_fit.h"
 
 namespace finray {
 

@@ -9,10 +9,10 @@
 #include "finray/benchmark/setting.h"
 #include "finray/chain/forward.h"
 #include "finray/chain/sensing.h"
-#include "finray/sensing/frame_estimator.h"
-#include "finray/sensing/frame_problem.h"
-#include "finray/sensing/gauge_table.h"
-#include "finray/sensing/row_fit.h"
+#include "finray/estimation/frame_estimator.h"
+#include "finray/estimation/frame_problem.h"
+#include "finray/estimation/gauge_table.h"
+#include "finray/estimation/row_fit.h"
 
 namespace finray {
 

@@ -11,7 +11,7 @@
 #include "finray/control/model_controller.h"
 #include "finray/io/error.h"
 #include "finray/scene/clean_readings.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

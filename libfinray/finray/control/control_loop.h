@@ -12,7 +12,7 @@
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
 #include "finray/scene/measurements.h"
-#include "finray/sensing/frame_estimate.h"
+#include "finray/estimation/frame_estimate.h"
 
 namespace finray {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "finray/control/drive.h"
-#include "finray/sensing/frame_estimate.h"
+#include "finray/estimation/frame_estimate.h"
 
 namespace finray {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "finray/io/error.h"
-#include "finray/sensing/chi_squared.h"
+#include "finray/estimation/chi_squared.h"
 
 namespace finray {
 namespace {

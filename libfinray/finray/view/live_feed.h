@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "finray/scene/measurements.h"
-#include "finray/sensing/frame_estimate.h"
+#include "finray/estimation/frame_estimate.h"
 
 namespace finray {
 

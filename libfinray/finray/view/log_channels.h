@@ -8,7 +8,7 @@
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
 #include "finray/finger/point_contact.h"
-#include "finray/sensing/frame_estimate.h"
+#include "finray/estimation/frame_estimate.h"
 #include "finray/view/channel.h"
 
 namespace finray {

@@ -7,8 +7,8 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
-#include "finray/sensing/chi_squared.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/chi_squared.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

@@ -12,7 +12,7 @@
 #include "finray/calib/analysis/score_test.h"
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/finger/gauge_discrepancy.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 

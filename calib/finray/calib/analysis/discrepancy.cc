@@ -17,7 +17,7 @@
 #include "finray/calib/solve/frame_pass.h"
 #include "finray/fit/calibration_errors.h"
 #include "finray/io/number_text.h"
-#include "finray/sensing/chi_squared.h"
+#include "finray/estimation/chi_squared.h"
 
 namespace finray {
 namespace {

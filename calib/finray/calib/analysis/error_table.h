@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "finray/io/yaml_emitter.h"
-#include "finray/sensing/frame_estimate.h"
+#include "finray/estimation/frame_estimate.h"
 
 namespace finray {
 

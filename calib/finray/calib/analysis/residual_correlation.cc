@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "finray/sensing/chi_squared.h"
+#include "finray/estimation/chi_squared.h"
 
 namespace finray {
 namespace {

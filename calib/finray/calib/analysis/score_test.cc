@@ -11,7 +11,7 @@
 #include "finray/calib/analysis/residual_correlation.h"
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/io/number_text.h"
-#include "finray/sensing/chi_squared.h"
+#include "finray/estimation/chi_squared.h"
 
 namespace finray {
 namespace {

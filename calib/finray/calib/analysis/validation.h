@@ -13,7 +13,7 @@
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/solve/contact_store.h"
 #include "finray/io/frame_table.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 

@@ -7,7 +7,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

@@ -14,7 +14,7 @@
 #include "finray/calib/report/doubts.h"
 #include "finray/calib/solve/undecided.h"
 #include "finray/io/number_text.h"
-#include "finray/sensing/gauge_table.h"
+#include "finray/estimation/gauge_table.h"
 
 namespace finray {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/solve/frame_linearizer.h"
-#include "finray/sensing/gauge_table.h"
+#include "finray/estimation/gauge_table.h"
 
 namespace finray {
 

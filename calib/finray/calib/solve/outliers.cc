@@ -7,7 +7,7 @@
 #include "finray/calib/problem/median.h"
 #include "finray/calib/solve/frame_pass.h"
 #include "finray/io/number_text.h"
-#include "finray/sensing/chi_squared.h"
+#include "finray/estimation/chi_squared.h"
 
 namespace finray {
 namespace {

@@ -1,0 +1,203 @@
+#ifndef FINRAY_ESTIMATION_CONTACT_SEARCH_H_
+#define FINRAY_ESTIMATION_CONTACT_SEARCH_H_
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "finray/scene/scene.h"
+#include "finray/estimation/contact_solution.h"
+#include "finray/estimation/found_solutions.h"
+#include "finray/estimation/frame_problem.h"
+#include "finray/estimation/packed_readings.h"
+#include "finray/estimation/pair_profile.h"
+#include "finray/estimation/row_fit.h"
+#include "finray/estimation/search_tables.h"
+
+namespace finray {
+
+/// The solver that minimises chi2 from a start.
+enum class FrameMethod {
+  kFast,           ///< RowFit; tests prove it equal to kCeresReduced.
+  kCeresReduced,   ///< FrameProblem, equilibrium eliminated.
+  kCeresWeighted,  ///< FrameProblem, equilibrium as residual blocks.
+};
+/// Returns "fast", "ceres reduced" or "ceres weighted".
+const char* FrameMethodName(FrameMethod method);
+
+/// Finds the contacts that explain a frame, without a guess. It minimises chi2
+/// from the best starts of a table, and from all further starts that might lead
+/// to a rival. A rival is another solution that explains the frame about as
+/// well. RowFit fits one contact on a surface. Where that does not serve, and
+/// for two contacts, it solves the equilibria.
+class ContactSearch {
+ public:
+  static constexpr double kWithinNoise = FoundSolutions::kWithinNoise;
+  /// Readings without noise leave a chi2 below this. They show every digit of
+  /// an estimate, so a search solves their equilibria.
+  static constexpr double kNoiseless = 1e-3;
+  /// Noise may bring a rival from so far, in chi2, to within kWithinNoise.
+  static constexpr double kSuspect = 40;
+
+  /// `tables` are those of another search with the same arguments, or null.
+  /// Throws InputError for a finger without an unloaded equilibrium.
+  ContactSearch(const Finger& finger, const Scene& scene,
+                const Discretization& discretization,
+                FrameMethod method = FrameMethod::kFast,
+                std::shared_ptr<const SearchTables> tables = nullptr);
+  ContactSearch(const ContactSearch&) = delete;
+  ContactSearch& operator=(const ContactSearch&) = delete;
+
+  /// Makes what searches would make when they first need it.
+  void Prepare();
+
+  /// Begins a frame. Its searches share Scene::search_iteration_limit. `row`
+  /// must stay in place.
+  void Begin(const Measurements& row) {
+    spent_ = 0;
+    ended_ = suspect_ = false;
+    fit_.set_row(row);
+  }
+  /// Searches with one or two contacts. Returns false if no start converged. A
+  /// contact with less than `least_force_N` is none. If IsDoubted, the first
+  /// pair that explains the frame ends the search, or a number of iterations.
+  bool Search(int contacts, const Measurements& row,
+              const PackedReadings& packed, double least_force_N = 0);
+  /// Says whether the gauges of a frame do not tell whether there are two
+  /// contacts: with `contacts: auto`, as many unknowns as readings. Whatever
+  /// pair is found is then unobservable.
+  bool IsDoubted(const PackedReadings& packed) const {
+    return !scene_.contacts && packed.all <= 2 * kFittedContacts;
+  }
+
+  // Frames with two contacts that follow each other:
+
+  /// After a search for two contacts: prepares Follow for a frame with the same
+  /// gauges. Returns false if the frame after must be searched.
+  bool BeginFollowing();
+  /// Fits two contacts from those that the last frame left, and from one start
+  /// of the table, another one in every frame. Returns false, and leaves no
+  /// results, where only a search can tell what explains the frame: the
+  /// contacts have jumped, chi2 has risen since the search, or the start leads
+  /// to others that explain the frame too.
+  bool Follow(const PackedReadings& packed);
+  /// Says whether a search for two contacts or Follow has found, in this frame,
+  /// a solution that noise makes a rival in some frames.
+  bool HasSuspect() const { return suspect_; }
+
+  /// chi2 of the finger without a contact.
+  double FreeChi2(const Measurements& row);
+
+  /// A search of this frame was ended by the limit, with starts left to try.
+  bool ended() const { return ended_; }
+
+  // Results of the last successful search.
+
+  const ContactSolution& best() const { return found_.best(); }
+  const ContactSolution* rival() const { return found_.rival(); }
+  /// The best contact at each place of the table (GaugeTable::Profile) that may
+  /// be a rival or belong to a valley; the others have an infinite chi2 or one
+  /// that is too large. Of two contacts, the places of ProfilePair, and none if
+  /// IsDoubted. Empty without gauges.
+  const std::vector<ContactStart>& profile() const { return profile_; }
+  /// Number of iterations of all fits of the last search.
+  int iterations() const { return iterations_; }
+
+  /// Says whether noise plausibly makes chi2 this large. Without degrees of
+  /// freedom, says whether chi2 is nearly zero.
+  static bool IsExplained(double chi2, int dof);
+
+  /// Says whether a contact is on a bound of the search: at an end of the beam
+  /// or at the largest force.
+  bool OnBound(double arc_mm, double normal_N) const {
+    return found_.OnBound(arc_mm, normal_N);
+  }
+
+  /// The friction of the contacts of the searches that follow; the scene's at
+  /// first. Starts come from the table with the scene's.
+  void set_friction(double friction) {
+    friction_ = friction;
+    fit_.set_friction(friction);
+    if (problem_) problem_->set_friction(friction);
+  }
+  double friction() const { return friction_; }
+
+  const std::shared_ptr<const SearchTables>& tables() const { return tables_; }
+  const GaugeTable& table() const { return table_; }
+  /// The largest credible force: the scene's force_max_N, by default
+  /// table().heaviest_N().
+  double most_force_N() const { return most_force_N_; }
+
+ private:
+  bool MayFindPairs() const;
+  // The iterations left by the limit; and what a fit may take of them.
+  int LeftOfLimit() const;
+  int Left() const;
+  // Says whether another fit may begin. It then gets the iterations left.
+  bool MayGoOn();
+  // Counts the iterations of a fit.
+  void Spend(int iterations, bool converged);
+  // Rows of the profile need not reach beyond `most_chi2`.
+  void FindStarts(int contacts, const PackedReadings& packed,
+                  double most_chi2 = GaugeTable::kAnyChi2);
+  // Fits from the starts of a profile that reaches to `most_chi2`. Returns how
+  // far it must reach; if that is farther, not all starts are tried.
+  double TryStarts(int contacts, const Measurements& row,
+                   const PackedReadings& packed, double most_chi2,
+                   double least_force_N);
+  // Says whether the best pair is all that can be known of a frame.
+  bool IsEnough(const PackedReadings& packed, double least_force_N) const;
+  // Profiles the best pair, and fits from where its profile has other minima,
+  // until they lead to no better one. The profile is then that of the best
+  // pair. Ceres needs the row.
+  void ProfileBest(const PackedReadings& packed, const Measurements* row);
+  // Fits from rows of the table that the solutions found do not account for:
+  // from all of them where minima are `close`, else from those beside which
+  // chi2 changes too sharply for the table to show a minimum between rows.
+  void SearchRows(bool close);
+  // Fits from places up to a row's spacing away from the best solution.
+  void SearchBeside();
+  // Fits from the other forces of the rows beside the best solution at which
+  // the table's chi2 has a minimum.
+  void SearchForces(const PackedReadings& packed);
+  // Says whether a solution is nearer to a row than its neighbours are.
+  bool IsBeside(std::size_t row) const;
+  // Says whether the search may have missed a minimum within noise near a row
+  // whose distance in std differs from a neighbour's by least_rise or more.
+  bool Hides(std::size_t row, double least_rise) const;
+  // All fit from a start and fill in the next solution. Fit goes by the surface
+  // where it can, else by FitEquilibria.
+  bool Fit(const ContactStart& start);
+  // With `known`, a solution is there already if it does not converge. Takes at
+  // most `most` iterations.
+  bool FitEquilibria(const ContactStart& start, int most, bool known = false);
+  bool FitByCeres(const ContactStart& start, const Measurements& row);
+
+  Scene scene_;
+  double friction_, length_mm_;
+  EquilibriumSolver solver_;
+  std::shared_ptr<const SearchTables> tables_;
+  const GaugeTable& table_;
+  double most_force_N_;
+  FoundSolutions found_;
+  FrameMethod method_;
+  bool on_surface_ = false, exact_fit_ = false;  // this search
+  RowFit fit_;
+  std::optional<FrameProblem> problem_;         // if Ceres solves
+  std::vector<ContactStart> profile_, starts_;  // of one contact
+  std::vector<ContactStart> pair_starts_;
+  PairProfile pair_profile_;
+  ContactStart followed_;  // the contacts that the last frame left
+  LadderState followed_state_;
+  std::size_t turn_ = 0;      // of pair_starts_
+  double searched_chi2_ = 0;  // where following began
+  bool suspect_ = false;
+  int iterations_ = 0, most_iterations_ = 0;  // of this search
+  int spent_ = 0;                             // by all searches of the frame
+  bool ended_ = false;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_ESTIMATION_CONTACT_SEARCH_H_

@@ -1,0 +1,147 @@
+#include "finray/estimation/found_solutions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace finray {
+namespace {
+
+constexpr double kSame = 0.01;  // chi2 between fits of one minimum
+constexpr double kTie = 1e-6;   // chi2 that says nothing
+// A rival lies outside the region that holds 99 % of the estimates. These are
+// the quantiles of chi-squared for two and for four parameters.
+constexpr double kDistinct[] = {9.21, 13.28};
+// Fits of one minimum end this close to each other, in l_0 and f_c, however
+// small the std.
+constexpr double kRounding = 1e-10;
+
+}  // namespace
+
+FoundSolutions::FoundSolutions(double length_mm, double most_force_N,
+                               std::size_t ribs)
+    : length_mm_(length_mm), most_force_N_(most_force_N), solutions_(kMost) {
+  for (ContactSolution& solution : solutions_) {
+    solution.rib_tension_N.resize(ribs);
+  }
+}
+
+void FoundSolutions::Keep() {
+  ContactSolution& solution = next();
+  if (solution.count == 2 &&
+      solution.contacts[1].arc_mm < solution.contacts[0].arc_mm) {
+    std::swap(solution.contacts[0], solution.contacts[1]);
+    std::swap(solution.poses[0], solution.poses[1]);
+    const ContactMatrix was = solution.information;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        solution.information(i, j) = was((i + 2) % 4, (j + 2) % 4);
+      }
+    }
+  }
+  // A force on its bound is not credible and wins only where nothing else
+  // explains the frame.
+  const auto chi2 = [this](const ContactSolution& of) {
+    return of.chi2 + (HasMostForce(of) ? kWithinNoise : 0);
+  };
+  // With as many unknowns as readings all leave nothing but rounding. Then the
+  // lighter contact is likelier: a place explains the readings over a range
+  // that is proportional to 1 / f_c (valley.h).
+  const double more = empty() ? 0 : chi2(solution) - chi2(best());
+  const bool lighter =
+      solution.contacts[0].normal_N < solutions_[best_].contacts[0].normal_N;
+  if (empty() || more < -kTie || (more < kTie && lighter)) best_ = count_;
+  ++count_;
+}
+
+double FoundSolutions::least_chi2() const {
+  return empty() ? std::numeric_limits<double>::infinity() : best().chi2;
+}
+
+const ContactSolution* FoundSolutions::rival(double within) const {
+  const ContactSolution* rival = nullptr;
+  for (int i = 0; i < count_; ++i) {
+    const ContactSolution& other = solutions_[i];
+    if (i == best_ || other.chi2 > best().chi2 + within) continue;
+    if (HasMostForce(other) && !HasMostForce(best())) continue;
+    if (!IsDistinct(other)) continue;
+    if (rival == nullptr || other.chi2 < rival->chi2) rival = &other;
+  }
+  return rival;
+}
+
+bool FoundSolutions::IsDistinct(const ContactSolution& other) const {
+  const ContactSolution& one = best();
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1> apart(
+      2 * one.count);
+  bool rounding = true;
+  for (int c = 0; c < one.count; ++c) {
+    apart[2 * c] = other.contacts[c].arc_mm - one.contacts[c].arc_mm;
+    apart[2 * c + 1] = other.contacts[c].normal_N - one.contacts[c].normal_N;
+    rounding &=
+        std::abs(apart[2 * c]) < kRounding * length_mm_ &&
+        std::abs(apart[2 * c + 1]) < kRounding * one.contacts[c].normal_N;
+  }
+  return !rounding &&
+         apart.dot(one.information * apart) > kDistinct[one.count - 1];
+}
+
+bool FoundSolutions::HasMostForce(const ContactSolution& solution) const {
+  for (int c = 0; c < solution.count; ++c) {
+    if (solution.contacts[c].normal_N >= most_force_N_) return true;
+  }
+  return false;
+}
+
+template <class Is>
+bool FoundSolutions::Any(const Is& is) const {
+  return std::any_of(solutions_.begin(), solutions_.begin() + count_, is);
+}
+
+bool FoundSolutions::KnowsNext() const {
+  const ContactSolution& next = solutions_[count_];
+  return Any([&](const ContactSolution& one) {
+    return IsNear(one, next.contacts[0], next.chi2);
+  });
+}
+
+bool FoundSolutions::Knows(const PointContact& contact, double chi2) const {
+  return Any([&](const ContactSolution& one) {
+    return !OnBound(one.contacts[0].arc_mm, one.contacts[0].normal_N) &&
+           IsNear(one, contact, chi2);
+  });
+}
+
+bool FoundSolutions::IsNear(const ContactSolution& one,
+                            const PointContact& contact, double chi2) const {
+  // At the clamp of the beam the information is zero, and every other solution
+  // would be near.
+  if (chi2 < one.chi2 - kSame) return false;
+  const Eigen::Vector2d apart(contact.arc_mm - one.contacts[0].arc_mm,
+                              contact.normal_N - one.contacts[0].normal_N);
+  return apart.dot(one.information * apart) < kSame;
+}
+
+bool FoundSolutions::IsWithin(double distance_mm, double arc_mm) const {
+  return Any([&](const ContactSolution& one) {
+    return std::abs(arc_mm - one.contacts[0].arc_mm) < distance_mm;
+  });
+}
+
+double FoundSolutions::ExpectedChi2(double arc_mm) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < count_; ++i) {
+    const ContactSolution& one = solutions_[i];
+    const ContactMatrix& a = one.information;
+    const double apart = arc_mm - one.contacts[0].arc_mm;
+    const double given_force = a(0, 0) - a(0, 1) * a(1, 0) / a(1, 1);
+    least = std::min(least, one.chi2 + given_force * apart * apart);
+  }
+  return least;
+}
+
+bool FoundSolutions::OnBound(double arc_mm, double normal_N) const {
+  return arc_mm <= 0 || arc_mm >= length_mm_ || normal_N >= most_force_N_;
+}
+
+}  // namespace finray

@@ -1,0 +1,296 @@
+#include "finray/estimation/pair_profile.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "finray/finger/finger.h"
+
+namespace finray {
+namespace {
+
+constexpr int kPairUnknowns = 2 * kFittedContacts;
+using PairVector = Eigen::Matrix<double, kPairUnknowns, 1>;
+using PairMatrix = Eigen::Matrix<double, kPairUnknowns, kPairUnknowns>;
+
+// Lengths, in l_0.
+constexpr double kProfileStep = 0.025;
+constexpr double kClamp = 0.02;      // no contact is nearer to the base
+constexpr double kApart = 0.02;      // nor are contacts to each other
+constexpr double kTipBay = 0.012;    // past the last rib begins so far inside
+constexpr double kBaseBay = 0.1;     // near the base ends so far past the first
+constexpr double kBehindRib = 0.06;  // a profile of an end begins so far inside
+constexpr double kUnsure = 0.008;    // std of a contact that is profiled
+constexpr double kProfiledBay = 0.12;
+// A place is as good as fitted when its next change would lower chi2 by less.
+constexpr double kPlaceFitted = 0.1;
+constexpr int kMostRefits = 4;
+// Forces change by this factor at most in one step, and places by this length.
+constexpr double kMostFactor = 3, kLongestRefit = 0.1;
+// A minimum is suspected to have another one beside it where chi2 rises by less
+// than this share of what its curvature expects, farther away than kBeside
+// expects and by less than kBesideChi2: it may fall between two places.
+constexpr double kBetterBeside = 0.6, kBeside = 9, kBesideChi2 = 200;
+// A profile ends where it is this far above the minimum.
+constexpr double kSteep = 1e3;
+constexpr double kPairSlack = 1.5, kPairFarthest = 3.5;
+constexpr double kLeastPairDistance = 0.5;
+
+struct ProfiledRange {
+  double low_mm, high_mm;
+};
+
+// Where a contact is profiled. Empty at its place.
+ProfiledRange ProfiledPart(const Finger& finger,
+                           const ContactSolution& solution, int contact,
+                           double std_mm) {
+  const double length = finger.front_length_mm;
+  const double arc = solution.contacts[contact].arc_mm;
+  const double other = solution.contacts[1 - contact].arc_mm;
+  double first = length, last = 0;
+  for (const Rib& rib : finger.ribs) {
+    first = std::min(first, rib.front_mm);
+    last = std::max(last, rib.front_mm);
+  }
+  ProfiledRange part{arc, arc};
+  const auto widen = [&part](double low_mm, double high_mm) {
+    part.low_mm = std::min(part.low_mm, low_mm);
+    part.high_mm = std::max(part.high_mm, high_mm);
+  };
+  if (arc > last - kTipBay * length) widen(last - kBehindRib * length, length);
+  if (arc < first + kBaseBay * length) widen(0, first + kProfiledBay * length);
+  if (std_mm > kUnsure * length) {
+    const double reach = kProfiledBay * length + kPairFarthest * std_mm;
+    widen(arc - reach, arc + reach);
+  }
+  part.low_mm = std::max(part.low_mm, kClamp * length);
+  part.high_mm = std::min(part.high_mm, length);
+  if (contact == 1)
+    part.low_mm = std::max(part.low_mm, other + kApart * length);
+  if (contact == 0) {
+    part.high_mm = std::min(part.high_mm, other - kApart * length);
+  }
+  return part;
+}
+
+// Walks with one contact held, from place to place.
+class PairWalk {
+ public:
+  PairWalk(const ContactSolution& solution, const PackedReadings& packed,
+           double friction, double most_force_N, int most_iterations,
+           EquilibriumSolver* solver, PairProfile* profile)
+      : solution_(solution),
+        packed_(packed),
+        most_force_N_(most_force_N),
+        most_iterations_(most_iterations),
+        profile_(*profile),
+        length_mm_(solver->model().finger().front_length_mm),
+        solver_(*solver),
+        gauges_(solver->model().gauges()),
+        contacts_(solution.contacts.begin(), solution.contacts.end()) {
+    for (PointContact& contact : contacts_) contact.friction = friction;
+  }
+
+  void Walk(int contact, double end_mm, double variance_mm2,
+            std::vector<ContactStart>* places) {
+    const double begin = solution_.contacts[contact].arc_mm;
+    const double way = end_mm - begin;
+    if (std::abs(way) < 1e-6 * length_mm_) return;
+    const int steps = static_cast<int>(
+        std::ceil(std::abs(way) / (kProfileStep * length_mm_)));
+    for (int c = 0; c < 2; ++c) {
+      contacts_[c].arc_mm = solution_.contacts[c].arc_mm;
+      contacts_[c].normal_N = solution_.contacts[c].normal_N;
+    }
+    solver_.set_state(solution_.state);
+    if (!Linearize()) return;
+    double before = solution_.chi2;
+    bool falling = false;
+    ContactStart place;
+    place.count = 2;
+    for (int i = 1; i <= steps; ++i) {
+      const ContactStart last = place;
+      if (!Refit(contact, begin + way * i / steps, &place)) break;
+      places->push_back(place);
+      const bool falls = place.chi2 < before;
+      if (falling && !falls) Add(last, lowest_);
+      const double apart_mm = place.contacts[contact].arc_mm - begin;
+      const double more = place.chi2 - solution_.chi2;
+      const double expected = apart_mm * apart_mm / variance_mm2;
+      const bool flat = !falls && more < kBetterBeside * expected &&
+                        expected > kBeside &&
+                        more < kBesideChi2 + solution_.chi2;
+      if (falls || flat) solver_.SaveState(&lowest_);
+      if (flat || (falls && i == steps)) Add(place, lowest_);
+      falling = falls;
+      before = place.chi2;
+      if (place.chi2 > solution_.chi2 + kSteep * (1 + solution_.chi2)) break;
+    }
+  }
+
+ private:
+  void Add(const ContactStart& start, const LadderState& state) {
+    if (profile_.count == PairProfile::kMostMinima) return;
+    ContactStart& added = profile_.minima[profile_.count];
+    LadderState& its = profile_.states[profile_.count];
+    added = start;
+    its = state;
+    added.state = &its;
+    ++profile_.count;
+  }
+
+  // Residuals of the gauges and their slopes at the contacts.
+  bool Linearize() {
+    profile_.ended |= profile_.iterations == most_iterations_;
+    if (profile_.ended) return false;
+    ++profile_.iterations;
+    if (!solver_.SolveWithSensitivities(contacts_)) return false;
+    normal_.setZero();
+    gradient_.setZero();
+    chi2_ = 0;
+    for (int j = 0; j < gauges_; ++j) {
+      const double weight = packed_.weights[j];
+      if (weight == 0) continue;
+      const double off = weight * (solver_.outputs()[j] - packed_.values[j]);
+      const PairVector slope =
+          weight *
+          solver_.d_outputs().block<1, kPairUnknowns>(j, 0).transpose();
+      normal_.noalias() += slope * slope.transpose();
+      gradient_ += off * slope;
+      chi2_ += off * off;
+    }
+    return std::isfinite(chi2_);
+  }
+
+  // The change of the others for a change of the held one.
+  PairVector Change(int held, double moved) const {
+    PairMatrix system = normal_;
+    PairVector right = -gradient_ - normal_.col(held) * moved;
+    for (int k = 0; k < kPairUnknowns; ++k) {
+      if (k == held) continue;
+      // Keeps what the gauges do not determine where it is.
+      const double size =
+          k % 2 == 0 ? 0.2 * length_mm_ : 2 * contacts_[k / 2].normal_N;
+      system(k, k) += 1 / (size * size);
+    }
+    system.row(held).setZero();
+    system.col(held).setZero();
+    system(held, held) = 1;
+    right[held] = moved;
+    return system.ldlt().solve(right);
+  }
+
+  // Goes to a place and fits the others there.
+  bool Refit(int contact, double to_mm, ContactStart* place) {
+    const int held = 2 * contact;
+    double moved = to_mm - contacts_[contact].arc_mm;
+    for (int refit = 0; refit < kMostRefits; ++refit) {
+      const PairVector change = Change(held, moved);
+      if (!change.allFinite()) return false;
+      if (refit > 0) {
+        // chi2 at the end of the next change, to first order.
+        const double lower = -gradient_.dot(change);
+        if (lower < kPlaceFitted) {
+          chi2_ = std::max(0.0, chi2_ - lower);
+          break;
+        }
+      }
+      for (int c = 0; c < 2; ++c) {
+        PointContact& at = contacts_[c];
+        if (c == contact) {
+          at.arc_mm = to_mm;
+        } else {
+          // Its bounds keep it on its side of the other one.
+          const double longest = kLongestRefit * length_mm_,
+                       apart = kApart * length_mm_;
+          at.arc_mm += std::clamp(change[2 * c], -longest, longest);
+          at.arc_mm = c == 0 ? std::min(at.arc_mm, to_mm - apart)
+                             : std::max(at.arc_mm, to_mm + apart);
+          at.arc_mm =
+              std::clamp(at.arc_mm, kClamp * length_mm_ / 2, length_mm_);
+        }
+        at.normal_N = std::min(
+            std::clamp(at.normal_N + change[2 * c + 1],
+                       at.normal_N / kMostFactor, at.normal_N * kMostFactor),
+            most_force_N_);
+      }
+      moved = 0;
+      if (!Linearize()) return false;
+    }
+    for (int c = 0; c < 2; ++c) place->contacts[c] = contacts_[c];
+    place->chi2 = chi2_;
+    return true;
+  }
+
+  const ContactSolution& solution_;
+  const PackedReadings& packed_;
+  double most_force_N_;
+  int most_iterations_;
+  PairProfile& profile_;
+  double length_mm_;
+  LadderState lowest_;
+  EquilibriumSolver& solver_;
+  int gauges_;
+  std::vector<PointContact> contacts_;
+  PairMatrix normal_;
+  PairVector gradient_;
+  double chi2_ = 0;
+};
+
+}  // namespace
+
+void ProfilePair(const ContactSolution& solution, const PackedReadings& packed,
+                 double friction, double most_force_N, int most_iterations,
+                 EquilibriumSolver* solver, PairProfile* profile,
+                 std::vector<ContactStart>* places) {
+  places->clear();
+  profile->count = profile->iterations = 0;
+  profile->ended = false;
+  const ContactMatrix covariance = CovarianceOf(solution.information);
+  if (!std::isfinite(covariance(0, 0))) return;
+  const Finger& finger = solver->model().finger();
+  PairWalk walk(solution, packed, friction, most_force_N, most_iterations,
+                solver, profile);
+  solver->set_near_only(true);
+  for (int c = 0; c < 2; ++c) {
+    const ProfiledRange part =
+        ProfiledPart(finger, solution, c, std::sqrt(covariance(2 * c, 2 * c)));
+    for (const double end_mm : {part.high_mm, part.low_mm}) {
+      walk.Walk(c, end_mm, covariance(2 * c, 2 * c), places);
+    }
+  }
+  solver->set_near_only(false);
+}
+
+std::array<double, 2 * kFittedContacts> PairFactors(
+    const std::vector<ContactStart>& places, const ContactSolution& solution,
+    const std::array<double, 2 * kFittedContacts>& std, double scale) {
+  std::array<double, kPairUnknowns> factors;
+  factors.fill(1);
+  for (const ContactStart& place : places) {
+    double distance2 =
+        std::max(0.0, place.chi2 - solution.chi2) / (scale * scale);
+    for (int c = 0; c < 2; ++c) {
+      // Evidence, as in valley.h.
+      distance2 +=
+          2 * std::log(std::max(1e-3, place.contacts[c].normal_N /
+                                          solution.contacts[c].normal_N));
+    }
+    const double distance =
+        std::sqrt(std::max(kLeastPairDistance * kLeastPairDistance, distance2));
+    if (!(distance < kPairFarthest)) continue;
+    const double least = kPairSlack * distance;
+    for (int c = 0; c < 2; ++c) {
+      const PointContact &at = place.contacts[c], &of = solution.contacts[c];
+      const double far[] = {std::abs(at.arc_mm - of.arc_mm),
+                            std::abs(at.normal_N - of.normal_N)};
+      for (int i = 0; i < 2; ++i) {
+        double& factor = factors[2 * c + i];
+        factor = std::max(factor, far[i] / (least * std[2 * c + i]));
+      }
+    }
+  }
+  return factors;
+}
+
+}  // namespace finray
