@@ -31,7 +31,6 @@ TEST(LatencyTest, TheWrongFingerIsSlightlyWrong) {
 TEST(LatencyTest, ALimitBoundsTheIterations) {
   const std::vector<Latency> all = MeasureLatencies(PaperFinger(), 400, 1);
   ASSERT_EQ(all.size(), 8u);
-  int searched_long = 0;
   for (const Latency& one : all) {
     SCOPED_TRACE(one.finger + ", contacts: " + one.contacts);
     EXPECT_EQ(one.frames, 400);
@@ -42,10 +41,10 @@ TEST(LatencyTest, ALimitBoundsTheIterations) {
       EXPECT_LE(one.most_iterations, *one.iteration_limit);
     } else {
       EXPECT_EQ(one.ended, 0);
-      searched_long += one.most_iterations > 200;
+      // One contact, and what is left to a pair that explains anything.
+      EXPECT_LT(one.most_iterations, 200);
     }
   }
-  EXPECT_GT(searched_long, 0);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 constexpr double kBulge = 0.5;
 // Half a row beyond the last one, it leaves a straight line by no more than
 // this part.
-constexpr double kBeyond = 0.5;
+constexpr double kBeyondLast = 0.5;
 
 struct Box {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -61,8 +61,8 @@ RowBoxes::RowBoxes(const RowCurves& curves)
     for (const int inward : {-1, 1}) {
       if (!std::isnan(value(row - inward))) continue;
       const double end = here + 0.5 * (here - value(row + inward));
-      box->Add(end - kBeyond * bend(row + inward));
-      box->Add(end + kBeyond * bend(row + inward));
+      box->Add(end - kBeyondLast * bend(row + inward));
+      box->Add(end + kBeyondLast * bend(row + inward));
     }
   };
   for (int group = 0; group < groups; ++group) {

@@ -167,6 +167,12 @@ struct CalibrationErrors::Model {
     factor = by_calibrated * calibration_factor;
   }
 
+  // The slope of a gauge where the frame is linearised, V/rad.
+  double SlopeAt(int gauge) const {
+    return finger.gauges[static_cast<std::size_t>(gauge)].Slope(
+        frames.GaugeAngle(gauge));
+  }
+
   Finger finger;
   Scene scene;
   Discretization discretization;
@@ -178,10 +184,13 @@ struct CalibrationErrors::Model {
   Eigen::MatrixXd by_calibrated, calibration_factor;
   Eigen::MatrixXd factor;  // F, by the columns of C
   LinearizedFrame at;
-  // dx/dp F
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
-                2 * kFittedContacts, Eigen::Dynamic>
-      by_factor;
+  using ByContacts =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                    2 * kFittedContacts, Eigen::Dynamic>;
+  ByContacts by_factor;  // dx/dp F
+  // S at the contacts, the derivatives of x by the angles, and these times S.
+  Eigen::MatrixXd discrepancy;
+  ByContacts by_angle, by_discrepancy;
 };
 
 CalibrationErrors::CalibrationErrors(const Finger& any, const Scene& scene,
@@ -262,14 +271,21 @@ ContactMatrix CalibrationErrors::Of(const std::vector<PointContact>& contacts,
   }
   m.at.Eliminate(covariance);
   m.by_factor.noalias() = m.at.move.by_parameter.lazyProduct(m.factor);
-  const ContactMatrix noise = covariance;
   covariance.noalias() = m.by_factor.lazyProduct(m.by_factor.transpose());
   if (contacts.size() == 1) FindWholeForce(contacts[0]);
   if (m.finger.calibration->discrepancy) {
-    const Eigen::MatrixXd by_angle =
-        noise * m.at.by_contact.transpose() * ByAngle();
+    SetDiscrepancy(contacts);
+    // A reading's error acts as its offset does, over the slope.
+    m.by_angle.resize(unknowns, m.discrepancy.cols());
+    for (Eigen::Index j = 0; j < m.by_angle.cols(); ++j) {
+      const int gauge = static_cast<int>(j);
+      m.by_angle.col(j) =
+          m.SlopeAt(gauge) *
+          m.at.move.by_parameter.col(m.columns.OfGauge(gauge, kOffset));
+    }
+    m.by_discrepancy.noalias() = m.by_angle.lazyProduct(m.discrepancy);
     const ContactMatrix missed =
-        by_angle * DiscrepancyAt(contacts) * by_angle.transpose();
+        m.by_discrepancy.lazyProduct(m.by_angle.transpose());
     covariance += missed;
     if (contacts.size() == 1) {
       const double friction = contacts[0].friction;
@@ -305,8 +321,9 @@ double CalibrationErrors::Chi2(const std::vector<PointContact>& contacts,
   Eigen::MatrixXd covariance =
       Eigen::MatrixXd::Identity(rows, rows) + error * error.transpose();
   if (model_->finger.calibration->discrepancy) {
+    SetDiscrepancy(contacts);
     const Eigen::MatrixXd by_angle = ByAngle();
-    covariance += by_angle * DiscrepancyAt(contacts) * by_angle.transpose();
+    covariance += by_angle * model_->discrepancy * by_angle.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> root(covariance);
   const Eigen::VectorXd whitened = root.matrixL().solve(at->residuals);
@@ -317,7 +334,6 @@ double CalibrationErrors::Chi2(const std::vector<PointContact>& contacts,
       .squaredNorm();
 }
 
-// The discrepancy acts as offsets do, as gauges with a slope see an angle.
 Eigen::MatrixXd CalibrationErrors::ByAngle() const {
   const Model& m = *model_;
   const auto gauges = static_cast<Eigen::Index>(m.finger.gauges.size());
@@ -326,23 +342,21 @@ Eigen::MatrixXd CalibrationErrors::ByAngle() const {
   for (std::size_t i = 0; i < m.at.rows.size(); ++i) {
     const int j = m.at.rows[i].gauge;
     if (j < 0) continue;
-    const Gauge& gauge = m.finger.gauges[static_cast<std::size_t>(j)];
     const auto row = static_cast<Eigen::Index>(i);
-    by_angle(row, j) = gauge.Slope(m.frames.GaugeAngle(j)) *
-                       m.at.by_parameter(row, m.columns.OfGauge(j, kOffset));
+    by_angle(row, j) =
+        m.SlopeAt(j) * m.at.by_parameter(row, m.columns.OfGauge(j, kOffset));
   }
   return by_angle;
 }
 
-Eigen::MatrixXd CalibrationErrors::DiscrepancyAt(
-    const std::vector<PointContact>& contacts) const {
+void CalibrationErrors::SetDiscrepancy(
+    const std::vector<PointContact>& contacts) {
   const auto gauges = static_cast<Eigen::Index>(model_->finger.gauges.size());
-  Eigen::MatrixXd discrepancy = Eigen::MatrixXd::Zero(gauges, gauges);
+  model_->discrepancy.setZero(gauges, gauges);
   for (const PointContact& contact : contacts) {
     model_->finger.calibration->discrepancy->AddTo(
-        contact.arc_mm, contact.normal_N, &discrepancy);
+        contact.arc_mm, contact.normal_N, &model_->discrepancy);
   }
-  return discrepancy;
 }
 
 }  // namespace finray

@@ -56,8 +56,8 @@ class CalibrationErrors {
 
   /// C_sys at the contacts of a row. The diagonal is infinite if the
   /// measurements do not determine the contacts (for example without force).
-  /// For one contact, it solves no equilibrium where the surface serves.
-  /// Without a discrepancy it allocates nothing once it is warm.
+  /// For one contact, it solves no equilibrium where the surface serves, and it
+  /// allocates nothing once it is warm.
   ContactMatrix Of(const std::vector<PointContact>& contacts,
                    const Measurements& row);
 
@@ -83,9 +83,8 @@ class CalibrationErrors {
  private:
   struct Model;
   void FindWholeForce(const PointContact& contact);
-  Eigen::MatrixXd ByAngle() const;  // A
-  Eigen::MatrixXd DiscrepancyAt(
-      const std::vector<PointContact>& contacts) const;  // S
+  Eigen::MatrixXd ByAngle() const;                                 // A
+  void SetDiscrepancy(const std::vector<PointContact>& contacts);  // S
 
   std::unique_ptr<Model> model_;
   double whole_force_variance_N2_ = 0;

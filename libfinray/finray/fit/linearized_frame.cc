@@ -40,12 +40,17 @@ Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& a) {
   return (a - small * Eigen::Matrix2d::Identity()) / (large - small) / large;
 }
 
-Eigen::MatrixXd EliminateContact(
-    const Eigen::MatrixXd& c,
-    const Eigen::Matrix<double, Eigen::Dynamic, 2>& e) {
-  const Eigen::Matrix2d information = e.transpose() * e;
-  if (information.isZero(0)) return c;
-  return c - e * (PseudoInverse(information) * (e.transpose() * c));
+LinearizedFrame LinearizedFrame::WithRows(
+    const std::vector<int>& indices) const {
+  LinearizedFrame some;
+  for (const int i : indices) {
+    some.rows.push_back(rows[static_cast<std::size_t>(i)]);
+  }
+  some.residuals = residuals(indices);
+  some.weights = weights(indices);
+  some.by_parameter = by_parameter(indices, Eigen::all);
+  some.by_contact = by_contact(indices, Eigen::all);
+  return some;
 }
 
 ContactMatrix LinearizedFrame::Information() const {

@@ -56,6 +56,10 @@ struct LinearizedFrame {
   /// Their product with themselves is the information of the frame.
   Rows reduced;
 
+  /// Returns these rows alone, by their indices, without `move`, `reduced` and
+  /// the cost.
+  LinearizedFrame WithRows(const std::vector<int>& indices) const;
+
   /// Computes `move` and `reduced` from the rest, with the part of E'E that is
   /// more than rounding, or with its inverse.
   void Eliminate();
@@ -68,11 +72,6 @@ struct LinearizedFrame {
 /// Inverts the part of an information matrix of one contact that is more than
 /// rounding. For example, a contact without force says nothing about its place.
 Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& information);
-
-/// Returns C - E (E'E)^-1 E'C.
-Eigen::MatrixXd EliminateContact(
-    const Eigen::MatrixXd& by_parameter,
-    const Eigen::Matrix<double, Eigen::Dynamic, 2>& by_contact);
 
 }  // namespace finray
 

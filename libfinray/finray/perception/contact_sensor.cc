@@ -79,6 +79,12 @@ ContactSensor::ContactSensor(const Finger& finger, const Scene& scene,
 SensedFrame ContactSensor::Sense(const Measurements& readings) {
   const FrameEstimate estimate = estimator_.Estimate(readings);
   if (estimate.status != FrameStatus::kOk) return {estimate.status, {}, {}};
+  // An edge and a corner touch at two places. The estimate does not look for a
+  // second contact where an error of the finger may be as large.
+  if (!scene_.contacts && estimate.contacts == 1 &&
+      estimate.explained_chi2() >= FrameEstimator::kSecondSignificance) {
+    return {FrameStatus::kUnobservable, {}, {}};
+  }
   std::vector<PointContact> contacts;
   for (int c = 0; c < estimate.contacts; ++c) {
     contacts.push_back({estimate.contact[c].arc_mm,

@@ -156,9 +156,9 @@ class NextFrames {
     for (std::size_t i = 0; i < at.rows.size(); ++i) {
       if (Has(measured, at.rows[i].family)) rows.push_back(static_cast<int>(i));
     }
-    const Eigen::MatrixXd j = EliminateContact(
-        at.by_parameter(rows, Eigen::all), at.by_contact(rows, Eigen::all));
-    return j.transpose() * j;
+    LinearizedFrame used = at.WithRows(rows);
+    used.Eliminate();
+    return used.reduced.transpose() * used.reduced;
   }
 
   void Judge(const Eigen::MatrixXd& information, const Goal& goal,

@@ -81,21 +81,27 @@ std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
   return works;
 }
 
-// The rows of `all` that belong to gauges, over the std of one reading.
-Eigen::MatrixXd GaugeRows(const LinearizedFrame& at,
-                          const std::vector<double>& more_noise_V,
-                          const Eigen::MatrixXd& all) {
-  Eigen::MatrixXd rows(all.rows(), all.cols());
-  Eigen::Index count = 0;
+// The rows of gauges, over the std of one reading.
+LinearizedFrame GaugeRows(const LinearizedFrame& at,
+                          const std::vector<double>& more_noise_V) {
+  std::vector<int> gauges;
   for (std::size_t i = 0; i < at.rows.size(); ++i) {
-    const LinearizedFrame::Row& row = at.rows[i];
-    if (row.family != ResidualFamily::kGauge) continue;
-    rows.row(count++) =
-        all.row(static_cast<Eigen::Index>(i)) * row.std_V /
+    if (at.rows[i].family == ResidualFamily::kGauge) {
+      gauges.push_back(static_cast<int>(i));
+    }
+  }
+  LinearizedFrame rows = at.WithRows(gauges);
+  for (std::size_t i = 0; i < gauges.size(); ++i) {
+    const LinearizedFrame::Row& row = rows.rows[i];
+    const double share =
+        row.std_V /
         std::hypot(row.std_V,
                    more_noise_V[static_cast<std::size_t>(row.gauge)]);
+    const auto k = static_cast<Eigen::Index>(i);
+    rows.by_contact.row(k) *= share;
+    rows.by_parameter.row(k) *= share;
   }
-  return rows.topRows(count);
+  return rows;
 }
 
 }  // namespace
@@ -224,12 +230,12 @@ std::vector<double> MoreNoise_V(const Finger& rows, double gauge_readings,
 
 std::optional<GaugedContact> SensedBy(const LinearizedFrame& at,
                                       const std::vector<double>& more_noise_V) {
-  const Eigen::MatrixXd by_contact = GaugeRows(at, more_noise_V, at.by_contact);
-  if (by_contact.rows() < 2) return {};
+  LinearizedFrame rows = GaugeRows(at, more_noise_V);
+  if (rows.rows.size() < 2) return {};
   GaugedContact sensed;
-  sensed.noise = PseudoInverse(by_contact.transpose() * by_contact);
-  sensed.by_parameter = -sensed.noise * by_contact.transpose() *
-                        GaugeRows(at, more_noise_V, at.by_parameter);
+  sensed.noise = PseudoInverse(Eigen::Matrix2d(rows.Information()));
+  rows.Eliminate(sensed.noise);
+  sensed.by_parameter = rows.move.by_parameter;
   return sensed;
 }
 

@@ -45,13 +45,11 @@ PredictedFrames PredictFrames(CalibrationProblem* problem,
                               const Contacts& contacts,
                               const Eigen::VectorXd& unit);
 
-/// The contact that one reading of the gauges alone tells. With the derivatives
-/// E of its gauges by (l_c, f_c) and C by the parameters, both over the std of
-/// one reading,
-///
-///   noise = (E'E)^-1,    by_parameter = -(E'E)^-1 E'C.
+/// The contact that one reading of the gauges alone tells: LinearizedFrame with
+/// the rows of the gauges, over the std of one reading.
 struct GaugedContact {
-  Eigen::Matrix2d noise;  ///< The covariance of (l_c, f_c).
+  Eigen::Matrix2d noise;  ///< The covariance of (l_c, f_c), (E'E)^-1.
+  /// LinearizedFrame::ContactMove
   Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
 };
 /// Empty with fewer than two gauges. The rows of `at` may be means: one reading
@@ -64,10 +62,9 @@ std::vector<double> MoreNoise_V(const Finger& rows, double gauge_readings,
                                 const std::vector<double>& reading_noise_V);
 
 /// Predicts the std of a force that the gauges alone sense with the calibrated
-/// finger. Of a contact frame with the derivatives E of its gauges by (l_c,
-/// f_c) and C by the parameters, both over their std,
+/// finger. With SensedBy,
 ///
-///   var f = g C_x g' + [(E'E)^-1]_ff,   g = -[(E'E)^-1 E'C]_f.
+///   var f = g C_x g' + noise_ff,   g = by_parameter_f.
 ///
 /// The first part is what errors of the calibration add, the second the noise
 /// of the frame. Both are means over the predicted contacts that the gauges
