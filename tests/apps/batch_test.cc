@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "apps/batch_fixture.h"
-#include "finray/io/frame_table.h"
 #include "estimation/uncertain_finger.h"
 #include "estimation/wandering_log.h"
+#include "finray/io/frame_table.h"
 #include "test_finger.h"
 
 namespace finray {

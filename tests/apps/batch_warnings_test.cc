@@ -8,8 +8,8 @@
 #include <random>
 
 #include "apps/batch_fixture.h"
-#include "finray/io/frame_table.h"
 #include "estimation/uncertain_finger.h"
+#include "finray/io/frame_table.h"
 #include "test_finger.h"
 
 namespace finray {

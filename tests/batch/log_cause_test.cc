@@ -8,9 +8,9 @@
 #include <functional>
 #include <random>
 
+#include "estimation/uncertain_finger.h"
 #include "finray/batch/batch_estimation.h"
 #include "finray/statics/equilibrium.h"
-#include "estimation/uncertain_finger.h"
 #include "test_finger.h"
 
 namespace finray {

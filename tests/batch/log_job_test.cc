@@ -11,10 +11,10 @@
 #include <cmath>
 #include <thread>
 
+#include "estimation/log_readings.h"
 #include "finray/batch/log_stream.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
-#include "estimation/log_readings.h"
 #include "temp_file.h"
 #include "test_finger.h"
 

@@ -5,8 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "finray/fit/calibration_errors.h"
 #include "estimation/uncertain_finger.h"
+#include "finray/fit/calibration_errors.h"
 #include "test_finger.h"
 
 namespace finray {

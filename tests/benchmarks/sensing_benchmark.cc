@@ -15,12 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "estimation/gauge_log.h"
 #include "finray/chain/sensing.h"
-#include "finray/ladder/instruction_set.h"
 #include "finray/estimation/frame_problem.h"
 #include "finray/estimation/gauge_table.h"
 #include "finray/estimation/row_fit.h"
-#include "estimation/gauge_log.h"
+#include "finray/ladder/instruction_set.h"
 
 namespace finray {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "calib/standard_log.h"
 #include "finray/calib/solve/frame_linearizer.h"
-#include "finray/scene/clean_readings.h"
 #include "finray/estimation/frame_estimator.h"
 #include "finray/estimation/log_estimator.h"
+#include "finray/scene/clean_readings.h"
 #include "test_finger.h"
 
 namespace finray {

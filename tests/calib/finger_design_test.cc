@@ -7,9 +7,9 @@
 
 #include "finray/calib/design/planned_recording.h"
 #include "finray/calib/solve/robust_solve.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
-#include "finray/estimation/frame_estimator.h"
 #include "studies/planned_log.h"
 #include "test_finger.h"
 

@@ -9,8 +9,8 @@
 #include "calib/calibrated.h"
 #include "calib/log_rows.h"
 #include "finray/calib/analysis/identifiability.h"
-#include "finray/objects/circle_centre.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/objects/circle_centre.h"
 
 namespace finray {
 namespace {

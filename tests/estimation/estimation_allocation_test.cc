@@ -1,13 +1,14 @@
-// A warm fit takes no memory.
+// Warm fits and live frames take no memory.
 
 #include <gtest/gtest.h>
 
 #include <utility>
 
 #include "count_allocations.h"
+#include "estimation/gauge_log.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/estimation/gauge_table.h"
 #include "finray/estimation/row_fit.h"
-#include "estimation/gauge_log.h"
 
 namespace finray {
 namespace {
@@ -52,6 +53,34 @@ TEST(SensingAllocationTest, WarmFitsTakeNone) {
       EXPECT_EQ(allocations - before, 0)
           << (model == RowFit::Model::kSurface ? "surface" : "equilibria");
     }
+  }
+}
+
+// Neither the right finger nor one whose gauges are off by 3 std. Readings that
+// are as good as without noise solve equilibria, whose mesh may be refined.
+TEST(SensingAllocationTest, LiveFramesTakeNone) {
+  for (const double off_std : {0.0, 3.0}) {
+    GaugeLog log(600);
+    for (Measurements& row : log.rows) {
+      row.gauges_V[0] += off_std * GaugeLog::kNoise_rad;
+      row.gauges_V[2] -= off_std * GaugeLog::kNoise_rad;
+    }
+    FrameEstimator estimator(log.finger, Scene());
+    estimator.Prepare();
+    long taken = 0;
+    int counted = 0;
+    for (int round = 0; round < 2; ++round) {
+      taken = counted = 0;
+      for (const Measurements& row : log.rows) {
+        const long before = allocations;
+        const FrameEstimate& estimate = estimator.Next(row);
+        if (estimate.chi2 < ContactSearch::kNoiseless) continue;
+        taken += allocations - before;
+        ++counted;
+      }
+    }
+    EXPECT_EQ(taken, 0) << off_std;
+    EXPECT_GT(counted, 590);
   }
 }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "finray/estimation/frame_estimator.h"
 #include "estimation/uncertain_finger.h"
+#include "finray/estimation/frame_estimator.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <random>
 
-#include "finray/scene/simulation.h"
-#include "finray/estimation/chi_squared.h"
-#include "finray/estimation/frame_estimator.h"
 #include "estimation/gauge_volts.h"
 #include "estimation/uncertain_finger.h"
+#include "finray/estimation/chi_squared.h"
+#include "finray/estimation/frame_estimator.h"
+#include "finray/scene/simulation.h"
 #include "studies/coverage.h"
 
 namespace finray {

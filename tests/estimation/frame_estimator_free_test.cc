@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
+#include "estimation/uncertain_finger.h"
 #include "finray/estimation/chi_squared.h"
 #include "finray/estimation/frame_estimator.h"
 #include "finray/estimation/log_estimator.h"
-#include "estimation/uncertain_finger.h"
 #include "studies/gauge_frames.h"
 #include "test_finger.h"
 

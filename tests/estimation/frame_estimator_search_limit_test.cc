@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "estimation/gauge_volts.h"
 #include "finray/benchmark/latency.h"
 #include "finray/estimation/frame_estimator.h"
-#include "estimation/gauge_volts.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
-#include "finray/scene/clean_readings.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/scene/clean_readings.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <random>
 
+#include "estimation/uncertain_finger.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/fit/calibration_errors.h"
 #include "finray/io/error.h"
 #include "finray/scene/clean_readings.h"
-#include "finray/estimation/frame_estimator.h"
 #include "finray/statics/shape.h"
-#include "estimation/uncertain_finger.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "finray/scene/clean_readings.h"
 #include "finray/estimation/row_fit.h"
+#include "finray/scene/clean_readings.h"
 #include "test_finger.h"
 
 namespace finray {

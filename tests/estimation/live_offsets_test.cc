@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "finray/estimation/frame_estimator.h"
 #include "estimation/wandering_log.h"
+#include "finray/estimation/frame_estimator.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/io/error.h"
-#include "finray/estimation/frame_estimator.h"
 #include "estimation/wandering_log.h"
+#include "finray/estimation/frame_estimator.h"
+#include "finray/io/error.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/frame_table.h"
 #include "finray/scene/measurement_columns.h"
 #include "finray/scene/scene.h"
-#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

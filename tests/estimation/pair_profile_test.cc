@@ -8,9 +8,9 @@
 #include <sstream>
 #include <vector>
 
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/frame_table.h"
-#include "finray/estimation/frame_estimator.h"
 #include "shared_case.h"
 
 namespace finray {

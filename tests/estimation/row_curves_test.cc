@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "finray/ladder/instruction_set.h"
 #include "finray/estimation/row_boxes.h"
+#include "finray/ladder/instruction_set.h"
 
 namespace finray {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "finray/scene/clean_readings.h"
 #include "finray/estimation/gauge_table.h"
+#include "finray/scene/clean_readings.h"
 #include "test_finger.h"
 
 namespace finray {

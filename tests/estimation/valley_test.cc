@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "finray/estimation/frame_estimator.h"
 #include "estimation/gauge_volts.h"
+#include "finray/estimation/frame_estimator.h"
 #include "studies/ramps.h"
 #include "test_finger.h"
 
@@ -29,25 +29,25 @@ ContactSolution At50mm() {
 }
 
 TEST(ValleyTest, AStraightValleyHasItsStd) {
-  EXPECT_FALSE(FindValley(Places(4, 1e9), At50mm(), 4, 0.04, 1, 140));
+  EXPECT_FALSE(FindValley(Places(4, 1e9), At50mm(), {4, 0.04}, 1, 140));
   // A std too small by more than the slack.
-  const auto valley = FindValley(Places(4, 1e9), At50mm(), 2, 0.02, 1, 140);
+  const auto valley = FindValley(Places(4, 1e9), At50mm(), {2, 0.02}, 1, 140);
   ASSERT_TRUE(valley);
-  EXPECT_NEAR(valley->arc_factor, 2 / Valley::kSlack, 0.05);
-  EXPECT_NEAR(valley->normal_factor, 2 / Valley::kSlack, 0.05);
+  EXPECT_NEAR(valley->arc_factor, 2 / kOneContactRule.slack, 0.05);
+  EXPECT_NEAR(valley->normal_factor, 2 / kOneContactRule.slack, 0.05);
   EXPECT_NEAR(valley->arc_low_mm, 42, 0.5);
   EXPECT_NEAR(valley->arc_high_mm, 58, 0.5);
   EXPECT_NEAR(valley->normal_high_N, 2.08, 0.005);
 }
 
 TEST(ValleyTest, AValleyToTheEndsOfTheFinger) {
-  const auto valley = FindValley(Places(4, 3), At50mm(), 4, 0.04, 1, 140);
+  const auto valley = FindValley(Places(4, 3), At50mm(), {4, 0.04}, 1, 140);
   ASSERT_TRUE(valley);
   EXPECT_GT(valley->arc_factor, 5);
   EXPECT_EQ(valley->arc_low_mm, 0);
   EXPECT_EQ(valley->arc_high_mm, 140);
   // Far less likely places do not count.
-  EXPECT_FALSE(FindValley(Places(4, 30), At50mm(), 4, 0.04, 1, 140));
+  EXPECT_FALSE(FindValley(Places(4, 30), At50mm(), {4, 0.04}, 1, 140));
 }
 
 struct Frame {

@@ -9,12 +9,12 @@
 #include <random>
 
 #include "count_allocations.h"
+#include "estimation/gauge_volts.h"
+#include "estimation/uncertain_finger.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"
 #include "finray/scene/clean_readings.h"
-#include "finray/estimation/frame_estimator.h"
-#include "estimation/gauge_volts.h"
-#include "estimation/uncertain_finger.h"
 #include "test_finger.h"
 
 namespace finray {

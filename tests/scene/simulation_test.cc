@@ -5,10 +5,10 @@
 
 #include <cmath>
 
+#include "estimation/log_readings.h"
 #include "finray/batch/batch_estimation.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
-#include "estimation/log_readings.h"
 #include "temp_file.h"
 #include "test_finger.h"
 

@@ -16,9 +16,9 @@
 
 #include "finray/calib/design/finger_design.h"
 #include "finray/calib/design/planned_recording.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/number_text.h"
-#include "finray/estimation/frame_estimator.h"
 #include "studies/planned_log.h"
 #include "test_finger.h"
 

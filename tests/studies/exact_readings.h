@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "finray/finger/geometry.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/finger/geometry.h"
 #include "finray/statics/equilibrium.h"
 #include "studies/gauge_frames.h"
 

@@ -16,9 +16,9 @@
 #include <fstream>
 #include <string>
 
+#include "estimation/wandering_log.h"
 #include "finray/estimation/frame_estimator.h"
 #include "finray/estimation/log_estimator.h"
-#include "estimation/wandering_log.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "finray/scene/clean_readings.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/scene/clean_readings.h"
 #include "studies/gauge_frames.h"
 
 namespace finray {

@@ -12,10 +12,10 @@
 #include <random>
 #include <string>
 
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/number_text.h"
 #include "finray/io/yaml_map.h"
-#include "finray/estimation/frame_estimator.h"
 #include "studies/gauge_frames.h"
 
 namespace finray {

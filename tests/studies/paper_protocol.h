@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "finray/calib/report/calibration_result.h"
-#include "finray/scene/simulation.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/scene/simulation.h"
 #include "studies/gauge_frames.h"
 #include "temp_file.h"
 #include "test_finger.h"

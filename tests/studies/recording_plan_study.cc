@@ -12,9 +12,9 @@
 
 #include "finray/calib/design/contact_accuracy.h"
 #include "finray/calib/design/recording_plan.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/objects/object_contact.h"
 #include "finray/scene/simulation.h"
-#include "finray/estimation/frame_estimator.h"
 #include "studies/planned_log.h"
 #include "temp_file.h"
 #include "test_finger.h"

@@ -18,10 +18,10 @@
 
 #include "finray/batch/batch_estimation.h"
 #include "finray/benchmark/benchmark_case.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/frame_table.h"
 #include "finray/scene/measurement_columns.h"
-#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "finray/finger/geometry.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/finger/geometry.h"
 #include "studies/gauge_frames.h"
 #include "test_finger.h"
 

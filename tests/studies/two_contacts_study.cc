@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "finray/finger/finger_yaml.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/finger/finger_yaml.h"
 #include "studies/gauge_frames.h"
 
 namespace finray {

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <thread>
 
-#include "finray/finger/finger_yaml.h"
 #include "finray/estimation/zeroed_finger.h"
+#include "finray/finger/finger_yaml.h"
 #include "finray/statics/equilibrium.h"
 #include "finray/view/live_feed.h"
 #include "finray/view/live_hub.h"

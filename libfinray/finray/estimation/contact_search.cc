@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include "finray/finger/geometry.h"
 #include "finray/estimation/chi_squared.h"
 #include "finray/estimation/valley.h"
+#include "finray/finger/geometry.h"
 
 namespace finray {
 namespace {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "finray/scene/scene.h"
 #include "finray/estimation/contact_solution.h"
 #include "finray/estimation/found_solutions.h"
 #include "finray/estimation/frame_problem.h"
@@ -14,6 +13,7 @@
 #include "finray/estimation/pair_profile.h"
 #include "finray/estimation/row_fit.h"
 #include "finray/estimation/search_tables.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/finger/point_contact.h"
 #include "finray/estimation/chi_squared.h"
+#include "finray/finger/point_contact.h"
 
 namespace finray {
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "finray/fit/contact_covariance.h"
 #include "finray/estimation/valley.h"
+#include "finray/fit/contact_covariance.h"
 
 namespace finray {
 

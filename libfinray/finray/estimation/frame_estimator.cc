@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "finray/estimation/free_frame.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
-#include "finray/estimation/free_frame.h"
-#include "finray/estimation/pair_profile.h"
 
 namespace finray {
 namespace {
@@ -311,31 +310,23 @@ void FrameEstimator::Found(const Measurements& readings,
   estimate.noise_covariance = covariance;
   ExplainByModelErrors(readings, packed, to);
   const double scale = estimate.noise_scale();
-  for (int c = 0; c < best.count; ++c) {
-    ContactEstimate& contact = estimate.contact[c];
-    contact.arc_std_mm = scale * std::sqrt(covariance(2 * c, 2 * c));
-    contact.normal_std_N = scale * std::sqrt(covariance(2 * c + 1, 2 * c + 1));
-  }
-  // A camera's points are not in the table.
-  if (best.count == 1 && packed.camera == 0) {
-    estimate.valley = FindValley(
-        search_.profile(), best, estimate.contact[0].arc_std_mm,
-        estimate.contact[0].normal_std_N, scale, finger_.front_length_mm);
+  ContactsStd std{};
+  for (int k = 0; k < kUnknowns * best.count; ++k) {
+    std[k] = scale * std::sqrt(covariance(k, k));
   }
   if (best.count == 2) {
-    std::array<double, 2 * kFittedContacts> std;
-    for (int k = 0; k < 2 * kFittedContacts; ++k) {
-      std[k] = scale * std::sqrt(covariance(k, k));
-    }
-    const auto factors = PairFactors(search_.profile(), best, std, scale);
-    for (int c = 0; c < kFittedContacts; ++c) {
-      estimate.contact[c].arc_std_mm *= factors[2 * c];
-      estimate.contact[c].normal_std_N *= factors[2 * c + 1];
+    std = ProfiledStd(search_.profile(), best, std, scale, kTwoContactsRule);
+  } else if (packed.camera == 0) {  // its points are not in the table
+    estimate.valley = FindValley(search_.profile(), best, std, scale,
+                                 finger_.front_length_mm);
+    if (estimate.valley) {
+      std[0] *= estimate.valley->arc_factor;
+      std[1] *= estimate.valley->normal_factor;
     }
   }
-  if (estimate.valley) {
-    estimate.contact[0].arc_std_mm *= estimate.valley->arc_factor;
-    estimate.contact[0].normal_std_N *= estimate.valley->normal_factor;
+  for (int c = 0; c < best.count; ++c) {
+    estimate.contact[c].arc_std_mm = std[kUnknowns * c];
+    estimate.contact[c].normal_std_N = std[kUnknowns * c + 1];
   }
   if (const ContactSolution* rival = search_.rival()) {
     CopyContacts(*rival, &estimate.alternative);

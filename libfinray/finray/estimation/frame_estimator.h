@@ -1,14 +1,14 @@
 #ifndef FINRAY_ESTIMATION_FRAME_ESTIMATOR_H_
 #define FINRAY_ESTIMATION_FRAME_ESTIMATOR_H_
 
-#include "finray/finger/finger.h"
-#include "finray/fit/calibration_errors.h"
-#include "finray/scene/measurements.h"
-#include "finray/scene/scene.h"
 #include "finray/estimation/contact_search.h"
 #include "finray/estimation/frame_estimate.h"
 #include "finray/estimation/live_offsets.h"
 #include "finray/estimation/log_prior.h"
+#include "finray/finger/finger.h"
+#include "finray/fit/calibration_errors.h"
+#include "finray/scene/measurements.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

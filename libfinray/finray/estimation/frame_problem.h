@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "finray/residuals/frame_blocks.h"
 #include "finray/estimation/contact_solution.h"
+#include "finray/residuals/frame_blocks.h"
 
 namespace finray {
 

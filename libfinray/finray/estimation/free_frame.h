@@ -1,9 +1,9 @@
 #ifndef FINRAY_ESTIMATION_FREE_FRAME_H_
 #define FINRAY_ESTIMATION_FREE_FRAME_H_
 
+#include "finray/estimation/frame_estimate.h"
 #include "finray/fit/calibration_errors.h"
 #include "finray/scene/scene.h"
-#include "finray/estimation/frame_estimate.h"
 
 namespace finray {
 

@@ -10,11 +10,11 @@
 #include <iterator>
 #include <limits>
 
+#include "finray/estimation/parabola_slope.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
 #include "finray/objects/circle_centre.h"
-#include "finray/estimation/parabola_slope.h"
 
 namespace finray {
 namespace {

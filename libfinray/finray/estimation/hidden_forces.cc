@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/io/error.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/io/error.h"
 
 namespace finray {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <Eigen/Core>
 
+#include "finray/estimation/frame_estimate.h"
+#include "finray/estimation/offset_belief.h"
 #include "finray/finger/finger.h"
 #include "finray/scene/measurements.h"
 #include "finray/scene/scene.h"
-#include "finray/estimation/frame_estimate.h"
-#include "finray/estimation/offset_belief.h"
 
 namespace finray {
 

@@ -6,14 +6,14 @@
 #include <string>
 #include <utility>
 
+#include "finray/estimation/block_tridiagonal.h"
+#include "finray/estimation/frame_estimator.h"
+#include "finray/estimation/free_frame.h"
 #include "finray/finger/geometry.h"
 #include "finray/finger/possible_reading.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
 #include "finray/io/number_text.h"
-#include "finray/estimation/block_tridiagonal.h"
-#include "finray/estimation/frame_estimator.h"
-#include "finray/estimation/free_frame.h"
 
 namespace finray {
 namespace {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "finray/fit/calibration_errors.h"
 #include "finray/estimation/frame_estimate.h"
 #include "finray/estimation/frame_estimator.h"
 #include "finray/estimation/log_problem.h"
 #include "finray/estimation/touch_detection.h"
+#include "finray/fit/calibration_errors.h"
 
 namespace finray {
 

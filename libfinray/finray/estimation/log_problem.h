@@ -10,13 +10,13 @@
 #include <optional>
 #include <vector>
 
-#include "finray/residuals/frame_blocks.h"
-#include "finray/scene/scene.h"
 #include "finray/estimation/block_tridiagonal.h"
 #include "finray/estimation/contact_search.h"
 #include "finray/estimation/frame_estimate.h"
 #include "finray/estimation/log_prior.h"
 #include "finray/estimation/walk_increments.h"
+#include "finray/residuals/frame_blocks.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

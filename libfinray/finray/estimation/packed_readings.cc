@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "finray/finger/possible_reading.h"
 #include "finray/estimation/free_frame.h"
+#include "finray/finger/possible_reading.h"
 
 namespace finray {
 

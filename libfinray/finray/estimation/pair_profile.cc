@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/estimation/valley.h"
 #include "finray/finger/finger.h"
 
 namespace finray {
@@ -33,8 +34,6 @@ constexpr double kMostFactor = 3, kLongestRefit = 0.1;
 constexpr double kBetterBeside = 0.6, kBeside = 9, kBesideChi2 = 200;
 // A profile ends where it is this far above the minimum.
 constexpr double kSteep = 1e3;
-constexpr double kPairSlack = 1.5, kPairFarthest = 3.5;
-constexpr double kLeastPairDistance = 0.5;
 
 struct ProfiledRange {
   double low_mm, high_mm;
@@ -60,7 +59,8 @@ ProfiledRange ProfiledPart(const Finger& finger,
   if (arc > last - kTipBay * length) widen(last - kBehindRib * length, length);
   if (arc < first + kBaseBay * length) widen(0, first + kProfiledBay * length);
   if (std_mm > kUnsure * length) {
-    const double reach = kProfiledBay * length + kPairFarthest * std_mm;
+    const double reach =
+        kProfiledBay * length + kTwoContactsRule.farthest * std_mm;
     widen(arc - reach, arc + reach);
   }
   part.low_mm = std::max(part.low_mm, kClamp * length);
@@ -260,37 +260,6 @@ void ProfilePair(const ContactSolution& solution, const PackedReadings& packed,
     }
   }
   solver->set_near_only(false);
-}
-
-std::array<double, 2 * kFittedContacts> PairFactors(
-    const std::vector<ContactStart>& places, const ContactSolution& solution,
-    const std::array<double, 2 * kFittedContacts>& std, double scale) {
-  std::array<double, kPairUnknowns> factors;
-  factors.fill(1);
-  for (const ContactStart& place : places) {
-    double distance2 =
-        std::max(0.0, place.chi2 - solution.chi2) / (scale * scale);
-    for (int c = 0; c < 2; ++c) {
-      // Evidence, as in valley.h.
-      distance2 +=
-          2 * std::log(std::max(1e-3, place.contacts[c].normal_N /
-                                          solution.contacts[c].normal_N));
-    }
-    const double distance =
-        std::sqrt(std::max(kLeastPairDistance * kLeastPairDistance, distance2));
-    if (!(distance < kPairFarthest)) continue;
-    const double least = kPairSlack * distance;
-    for (int c = 0; c < 2; ++c) {
-      const PointContact &at = place.contacts[c], &of = solution.contacts[c];
-      const double far[] = {std::abs(at.arc_mm - of.arc_mm),
-                            std::abs(at.normal_N - of.normal_N)};
-      for (int i = 0; i < 2; ++i) {
-        double& factor = factors[2 * c + i];
-        factor = std::max(factor, far[i] / (least * std[2 * c + i]));
-      }
-    }
-  }
-  return factors;
 }
 
 }  // namespace finray

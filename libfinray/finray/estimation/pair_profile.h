@@ -41,15 +41,6 @@ void ProfilePair(const ContactSolution& solution, const PackedReadings& packed,
                  EquilibriumSolver* solver, PairProfile* profile,
                  std::vector<ContactStart>* places);
 
-/// How much larger the std of (l_c, f_c) of both contacts are than those of the
-/// minimum, 1 or more each. A place with d(l)^2 = (p - chi2) / scale^2 is d
-/// std away, as in valley.h, and the std are at least the distances of all
-/// unknowns over 1.5 d, for d below 3.5: noise reaches farther in one frame of
-/// 2000. `std` are those of the minimum.
-std::array<double, 2 * kFittedContacts> PairFactors(
-    const std::vector<ContactStart>& places, const ContactSolution& solution,
-    const std::array<double, 2 * kFittedContacts>& std, double scale);
-
 }  // namespace finray
 
 #endif  // FINRAY_ESTIMATION_PAIR_PROFILE_H_

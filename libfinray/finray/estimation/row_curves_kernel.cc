@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "finray/ladder/registers.h"
 #include "finray/estimation/row_boxes.h"
+#include "finray/ladder/registers.h"
 
 namespace finray {
 inline namespace FINRAY_ISA {

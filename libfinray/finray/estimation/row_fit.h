@@ -1,8 +1,8 @@
 #ifndef FINRAY_ESTIMATION_ROW_FIT_H_
 #define FINRAY_ESTIMATION_ROW_FIT_H_
 
-#include "finray/fit/row_frames.h"
 #include "finray/estimation/contact_solution.h"
+#include "finray/fit/row_frames.h"
 
 namespace finray {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <mutex>
 
-#include "finray/model/model_surface.h"
-#include "finray/scene/scene.h"
 #include "finray/estimation/gauge_table.h"
 #include "finray/estimation/pair_table.h"
+#include "finray/model/model_surface.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "finray/estimation/frame_estimate.h"
+#include "finray/estimation/log_prior.h"
 #include "finray/finger/finger.h"
 #include "finray/scene/measurements.h"
 #include "finray/scene/scene.h"
-#include "finray/estimation/frame_estimate.h"
-#include "finray/estimation/log_prior.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

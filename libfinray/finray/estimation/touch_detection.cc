@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "finray/finger/geometry.h"
 #include "finray/estimation/chi_squared.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/finger/geometry.h"
 
 namespace finray {
 namespace {

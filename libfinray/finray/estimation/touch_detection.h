@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "finray/scene/scene.h"
 #include "finray/estimation/contact_search.h"
 #include "finray/estimation/log_problem.h"
 #include "finray/estimation/offset_belief.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

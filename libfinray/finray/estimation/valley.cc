@@ -8,8 +8,6 @@ namespace {
 
 // The interval reaches to two std.
 constexpr double kInterval = 2;
-// Places nearer than this many std say nothing that the curvature does not.
-constexpr double kNear = 2;
 // A place that explains the frame as well or better counts as if it were this
 // many std away.
 constexpr double kLeastDistance = 0.5;
@@ -19,42 +17,61 @@ constexpr double kLightest = 1e-3;
 
 }  // namespace
 
+ContactsStd ProfiledStd(const std::vector<ContactStart>& places,
+                        const ContactSolution& solution, const ContactsStd& std,
+                        double scale, const ProfileRule& rule) {
+  ContactsStd far = std;
+  // No evidence makes a place nearer that is farther than this.
+  const double most_chi2 =
+      solution.chi2 + scale * scale *
+                          (rule.farthest * rule.farthest +
+                           solution.count * Valley::kMostEvidence);
+  for (const ContactStart& place : places) {
+    const double away =
+        std::abs(place.contacts[0].arc_mm - solution.contacts[0].arc_mm);
+    if (place.chi2 > most_chi2 || away < rule.near_std * std[0]) continue;
+    double distance2 =
+        std::max(0.0, place.chi2 - solution.chi2) / (scale * scale);
+    for (int c = 0; c < solution.count; ++c) {
+      distance2 +=
+          2 * std::log(std::max(kLightest, place.contacts[c].normal_N /
+                                               solution.contacts[c].normal_N));
+    }
+    const double distance =
+        std::sqrt(std::max(kLeastDistance * kLeastDistance, distance2));
+    if (!(distance < rule.farthest)) continue;
+    const double least = std::min(rule.slack * distance, rule.most_std);
+    for (int c = 0; c < solution.count; ++c) {
+      const PointContact &at = place.contacts[c], &of = solution.contacts[c];
+      const double apart[] = {at.arc_mm - of.arc_mm, at.normal_N - of.normal_N};
+      for (int i = 0; i < 2; ++i) {
+        far[2 * c + i] = std::max(far[2 * c + i], std::abs(apart[i]) / least);
+      }
+    }
+  }
+  return far;
+}
+
 std::optional<Valley> FindValley(const std::vector<ContactStart>& profile,
                                  const ContactSolution& solution,
-                                 double arc_std_mm, double normal_std_N,
-                                 double scale, double length_mm) {
+                                 const ContactsStd& std, double scale,
+                                 double length_mm) {
   const double arc = solution.contacts[0].arc_mm,
                normal = solution.contacts[0].normal_N;
+  const double arc_std_mm = std[0], normal_std_N = std[1];
   // Neither counts where the readings do not determine the contact at all.
   if (!std::isfinite(arc_std_mm) || !std::isfinite(normal_std_N)) {
     return std::nullopt;
   }
+  const ContactsStd far =
+      ProfiledStd(profile, solution, std, scale, kOneContactRule);
+  if (far[0] == arc_std_mm && far[1] == normal_std_N) return std::nullopt;
+  Valley valley;
+  valley.arc_factor = far[0] / arc_std_mm;
+  valley.normal_factor = far[1] / normal_std_N;
   const auto more_chi2 = [&](const ContactStart& place) {
     return std::max(0.0, place.chi2 - solution.chi2) / (scale * scale);
   };
-  const double most_chi2 = solution.chi2 + scale * scale * Valley::kMostChi2;
-  double arc_far_mm = arc_std_mm, normal_far_N = normal_std_N;
-  for (const ContactStart& place : profile) {
-    const PointContact& other = place.contacts[0];
-    const double away = std::abs(other.arc_mm - arc);
-    if (place.chi2 > most_chi2 || away < kNear * arc_std_mm) continue;
-    const double more = more_chi2(place);
-    const double evidence =
-        2 * std::log(std::max(kLightest, other.normal_N / normal));
-    const double distance =
-        std::sqrt(std::max(kLeastDistance * kLeastDistance, more + evidence));
-    if (!(distance < Valley::kFarthest)) continue;
-    const double least = std::min(Valley::kSlack * distance, Valley::kMostStd);
-    arc_far_mm = std::max(arc_far_mm, away / least);
-    normal_far_N =
-        std::max(normal_far_N, std::abs(other.normal_N - normal) / least);
-  }
-  if (arc_far_mm == arc_std_mm && normal_far_N == normal_std_N) {
-    return std::nullopt;
-  }
-  Valley valley;
-  valley.arc_factor = arc_far_mm / arc_std_mm;
-  valley.normal_factor = normal_far_N / normal_std_N;
 
   // The interval: that of the minimum's std, the places within it, and up to
   // where it ends between two places.

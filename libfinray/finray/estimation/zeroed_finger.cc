@@ -5,13 +5,13 @@
 #include <limits>
 #include <string>
 
+#include "finray/estimation/chi_squared.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/possible_reading.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/scene.h"
-#include "finray/estimation/chi_squared.h"
-#include "finray/estimation/frame_estimator.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

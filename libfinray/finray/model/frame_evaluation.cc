@@ -114,7 +114,7 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
   if (!valid_) return;
   // dy/d ln EI = EI dy/dEI
   for (Matrix* d : {&d_outputs_, &d_closure_}) {
-    if (d->cols() < columns()) continue;
+    if (d->size() == 0) continue;
     d->col(frame_size()) *= front;
     d->col(frame_size() + 1) *= back;
     if (by_friction_) {
@@ -206,11 +206,16 @@ void FrameEvaluation::ReadMovedGauges(const Matrix& derivatives) {
 // fixed.
 void FrameEvaluation::SetWithoutPins(const Matrix& derivatives,
                                      Matrix* target) const {
-  if (derivatives.cols() == columns() || derivatives.cols() == frame_size()) {
+  if (derivatives.cols() == columns()) {
     *target = derivatives;
     return;
   }
   target->resize(derivatives.rows(), columns());
+  if (derivatives.cols() == frame_size()) {  // by the contacts only
+    target->setConstant(kNaN);
+    target->leftCols(frame_size()) = derivatives;
+    return;
+  }
   *target << derivatives.leftCols(frame_size()),
       derivatives.rightCols(2 + ribs_ + effects_);
   for (const auto& [load, effect] : moved_pins_) {

@@ -72,8 +72,7 @@ class FrameEvaluation {
             const std::vector<Eigen::Vector2d>& by_place);
 
   /// With false, the next Update() in the reduced form leaves out the
-  /// derivatives by anything but the frame unknowns: d_outputs() has these
-  /// columns only.
+  /// derivatives by anything but the frame unknowns; they are NaN.
   void set_by_parameter(bool by_parameter) { by_parameter_ = by_parameter; }
 
   /// Exchanges the friction of the contacts, for rows whose object slides
