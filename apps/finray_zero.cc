@@ -6,13 +6,13 @@
 #include <cstdio>
 
 #include "app.h"
+#include "finray/estimation/zeroed_finger.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/line_reader.h"
 #include "finray/io/log_lines.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/measurement_columns.h"
-#include "finray/estimation/zeroed_finger.h"
 
 DEFINE_string(finger, "", "finger YAML to zero");
 DEFINE_string(scene, "", "scene YAML, for its columns and its friction");

@@ -11,9 +11,9 @@
 #include "finray/batch/estimation_summary.h"
 #include "finray/batch/estimation_warnings.h"
 #include "finray/batch/result_rows.h"
+#include "finray/estimation/log_estimator.h"
 #include "finray/io/usable_cores.h"
 #include "finray/scene/history_filter.h"
-#include "finray/estimation/log_estimator.h"
 #include "inside.h"
 
 namespace finray::v1 {

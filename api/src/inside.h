@@ -12,6 +12,8 @@
 #include "finray/calib/problem/plan.h"
 #include "finray/calibration.h"
 #include "finray/error.h"
+#include "finray/estimation/frame_estimate.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/estimator.h"
 #include "finray/finger.h"
 #include "finray/finger/discretization.h"
@@ -23,8 +25,6 @@
 #include "finray/perception/reconstruction.h"
 #include "finray/scene.h"
 #include "finray/scene/scene.h"
-#include "finray/estimation/frame_estimate.h"
-#include "finray/estimation/frame_estimator.h"
 #include "finray/table.h"
 
 namespace finray::v1 {

@@ -9,7 +9,6 @@
 #include "estimation/uncertain_finger.h"
 #include "finray/estimation/frame_estimator.h"
 #include "finray/fit/calibration_errors.h"
-#include "finray/io/error.h"
 #include "finray/scene/clean_readings.h"
 #include "finray/statics/shape.h"
 #include "test_finger.h"

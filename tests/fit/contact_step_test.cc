@@ -56,8 +56,8 @@ TEST(BoundedChangeTest, IsTheLeastInTheBox) {
   EXPECT_GT(at_bounds, 10);
 }
 
-// r = (x^2 + y, 2 y) / 10 - 1 in x and y: with two contacts' worth of steps,
-// the secant B maps the last step to the change of the slopes, times r.
+// r = (x^2 + y, 2 y) / 10 - 1 in x and y: the secant B maps each step to the
+// change of the slopes, times r.
 TEST(UpdateCurvatureTest, MapsTheStepToTheChangeOfTheSlopes) {
   const auto residuals = [](const ContactVector& x) {
     return Eigen::Vector2d(x[0] * x[0] / 10 + x[1] / 10 - 1, x[1] / 5 - 1);

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "finray/estimation/frame_estimator.h"
+#include "finray/estimation/walk_increments.h"
 #include "finray/finger/finger.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/io/yaml_map.h"
 #include "finray/scene/measurements.h"
-#include "finray/estimation/frame_estimator.h"
-#include "finray/estimation/walk_increments.h"
 
 namespace finray {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "finray/estimation/zeroed_finger.h"
 #include "finray/finger/possible_reading.h"
 #include "finray/io/number_text.h"
-#include "finray/estimation/zeroed_finger.h"
 
 namespace finray {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "finray/batch/result_rows.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/io/frame_parser.h"
 #include "finray/scene/history_filter.h"
-#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 

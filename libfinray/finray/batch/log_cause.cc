@@ -11,10 +11,10 @@
 #include "finray/batch/batch_estimation.h"
 #include "finray/batch/estimation_summary.h"
 #include "finray/batch/estimation_warnings.h"
+#include "finray/estimation/zeroed_finger.h"
 #include "finray/fit/calibration_errors.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
-#include "finray/estimation/zeroed_finger.h"
 
 namespace finray {
 namespace {

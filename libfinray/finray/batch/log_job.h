@@ -11,9 +11,9 @@
 #include "finray/batch/batch_estimation.h"
 #include "finray/batch/estimation_warnings.h"
 #include "finray/batch/log_stream.h"
+#include "finray/estimation/hidden_forces.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/resumable_file.h"
-#include "finray/estimation/hidden_forces.h"
 
 namespace finray {
 

@@ -8,9 +8,9 @@
 #include <deque>
 
 #include "finray/batch/result_rows.h"
+#include "finray/estimation/log_estimator.h"
 #include "finray/io/error.h"
 #include "finray/scene/history_filter.h"
-#include "finray/estimation/log_estimator.h"
 
 namespace finray {
 namespace {

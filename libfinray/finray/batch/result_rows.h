@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "finray/estimation/frame_estimator.h"
 #include "finray/io/frame_parser.h"
 #include "finray/scene/measurement_columns.h"
-#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 

@@ -5,9 +5,9 @@
 #include <random>
 #include <stdexcept>
 
+#include "finray/estimation/row_fit.h"
 #include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"
-#include "finray/estimation/row_fit.h"
 
 namespace finray {
 namespace {

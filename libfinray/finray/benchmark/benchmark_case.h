@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "finray/scene/scene.h"
 #include "finray/estimation/packed_readings.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "finray/fit/contact_covariance.h"
 #include "finray/estimation/row_fit.h"
+#include "finray/fit/contact_covariance.h"
 
 namespace finray {
 

@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "finray/estimation/frame_estimate.h"
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
 #include "finray/scene/measurements.h"
-#include "finray/estimation/frame_estimate.h"
 
 namespace finray {
 

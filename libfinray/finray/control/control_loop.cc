@@ -9,9 +9,9 @@
 #include "finray/control/contact_watch.h"
 #include "finray/control/controller.h"
 #include "finray/control/model_controller.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/io/error.h"
 #include "finray/scene/clean_readings.h"
-#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

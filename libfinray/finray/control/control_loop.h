@@ -9,10 +9,10 @@
 #include "finray/control/controller.h"
 #include "finray/control/experiment.h"
 #include "finray/control/plant.h"
+#include "finray/estimation/frame_estimate.h"
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
 #include "finray/scene/measurements.h"
-#include "finray/estimation/frame_estimate.h"
 
 namespace finray {
 

@@ -19,8 +19,9 @@ constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
 // start.
 constexpr double kTableFactor = 0.25;
 constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12;
-// A doubted pair matters only if it explains the frame. Of random pairs of up
-// to 20 N that do, 98 % are found within so many iterations.
+// A doubted pair matters only if it explains the frame, which is unobservable
+// either way. Most of those that do are found within a quarter of this
+// (doubted_pairs_study).
 constexpr int kDoubtedIterations = 64;
 // Contacts that need more iterations from frame to frame have jumped.
 constexpr int kFollowIterations = 8;

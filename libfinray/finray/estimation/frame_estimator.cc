@@ -1,7 +1,6 @@
 #include "finray/estimation/frame_estimator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "finray/estimation/free_frame.h"
@@ -240,7 +239,8 @@ void FrameEstimator::Automatic(const Measurements& readings,
     if (contact.normal_N < least_force_N_) return;
   }
   if (without - two.chi2 < significance) return;
-  if (one && model_without - ModelChi2(readings, packed) < significance) {
+  // Written so that a difference of infinities is none.
+  if (one && !(model_without - ModelChi2(readings, packed) >= significance)) {
     return;
   }
   Found(readings, packed, estimate);
@@ -378,8 +378,12 @@ void FrameEstimator::Judge(const Measurements& readings,
   estimate->SetIntervals(finger_.front_length_mm);
   estimate->status = StatusOf(*estimate, finger_, search_);
   // Two contacts explain any reading of as many gauges as unknowns, so that
-  // nothing there says that there are two.
-  if (estimate->contacts == 2 && search_.IsDoubted(packed)) {
+  // nothing there says whether there are two.
+  const bool may_be_two = scene_.most_contacts > 1 && !scene_.object_std_mm &&
+                          packed.gauges >= 2 * kUnknowns;
+  if (search_.IsDoubted(packed) &&
+      (estimate->contacts == 2 ||
+       (may_be_two && estimate->explained_chi2() >= kDoubtedSignificance))) {
     estimate->status = FrameStatus::kUnobservable;
   }
 }

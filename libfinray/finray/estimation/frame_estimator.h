@@ -54,6 +54,7 @@ class FrameEstimator {
   /// error of the finger too. There a second contact must do so much: an error
   /// of 3.3 std in each of four gauges, with their noise, leaves a smaller
   /// chi2.
+  /// From there on nobody can tell whether there is a second one, found or not.
   static constexpr double kDoubtedSignificance = 100;
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLeastForce = 0.05;  ///< In units of EI / l_0^2.

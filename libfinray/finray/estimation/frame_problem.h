@@ -17,8 +17,7 @@ namespace finray {
 ///
 /// x is (l_c, f_c) of each contact in the reduced form, and (base loads, rib
 /// tensions, l_c, f_c of each contact) in the weighted one. FrameProblem is the
-/// reference against which the fast solver (RowFit) is tested. It alone
-/// takes every kind of measurement.
+/// reference against which the default solver (RowFit) is tested.
 class FrameProblem {
  public:
   /// Far above the chi2 that noise or a slightly wrong finger leaves. The solve

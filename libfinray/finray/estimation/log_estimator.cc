@@ -30,6 +30,12 @@ const Finger& Checked(const Finger& finger, const Scene& scene) {
                      " cannot be estimated with the whole log; 0, 1 and auto "
                      "can");
   }
+  // What decides who touches goes by the gauges.
+  if (scene.UsesCamera() && !scene.contacts) {
+    throw InputError(
+        "scene: pin_std_mm and tip_std_mm with the whole log need to know who "
+        "touches; expected contacts: 0 or 1");
+  }
   if (scene.presliding_mm) {
     throw InputError("scene: presliding_mm cannot be used with the whole log");
   }
@@ -230,7 +236,7 @@ void LogEstimator::EstimateAlone(const std::vector<LogFrame>& frames,
 
 // chi2 of the free finger where all other frames put the offsets.
 double LogEstimator::FreeChi2(const LogFrame& frame,
-                              const LogMarginal& marginal) const {
+                              const LogMarginal& marginal) {
   std::vector<int> measured;
   for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
     if (finger_.gauges[j].IsMeasured(frame.row.gauges_V[j])) {
@@ -251,7 +257,9 @@ double LogEstimator::FreeChi2(const LogFrame& frame,
     covariance(i, i) += std::pow(
         frame.row.GaugeStd_V(static_cast<std::size_t>(j), gauge.noise_V), 2);
   }
-  return off.dot(covariance.ldlt().solve(off));
+  const double camera_chi2 =
+      scene_.UsesCamera() ? detection_.FreeCameraChi2(frame.row) : 0;
+  return camera_chi2 + off.dot(covariance.ldlt().solve(off));
 }
 
 bool LogEstimator::Reconsider(const std::vector<LogMarginal>& marginals,
@@ -286,7 +294,8 @@ FrameEstimate LogEstimator::Judge(const LogFrame& frame,
   FrameEstimate estimate = free_;
   PackedReadings packed;
   Pack(finger_, scene_, frame.row, &packed);
-  if (packed.gauges < 1 || packed.all < 2 * scene_.contacts.value_or(1)) {
+  if (packed.gauges + packed.camera < 1 ||
+      packed.all < 2 * scene_.contacts.value_or(1)) {
     estimate = FrameEstimate();
     estimate.rib_tension_N.assign(finger_.ribs.size(), std::nan(""));
   } else if (frame.role == LogFrame::Role::kTouching &&
@@ -296,7 +305,7 @@ FrameEstimate LogEstimator::Judge(const LogFrame& frame,
     JudgeContact(frame, marginal, packed, &estimate);
   } else {
     estimate.chi2 = FreeChi2(frame, marginal);
-    estimate.dof = packed.gauges;
+    estimate.dof = packed.gauges + packed.camera;
     JudgeFree(WithoutWander(finger_, frame), &systematic_, &estimate);
     if (frame.doubtful) LeaveUnknown(&estimate);
   }

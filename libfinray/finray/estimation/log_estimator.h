@@ -73,7 +73,7 @@ class LogEstimator {
   void SolveWindow(std::size_t window, std::size_t settled);
   bool Reconsider(const std::vector<LogMarginal>& marginals,
                   std::vector<LogFrame>* frames, std::vector<bool>* dropped);
-  double FreeChi2(const LogFrame& frame, const LogMarginal& marginal) const;
+  double FreeChi2(const LogFrame& frame, const LogMarginal& marginal);
   LogPrior FirstPrior() const;
   OffsetBelief BeliefBefore() const;
   void EstimateAlone(const std::vector<LogFrame>& frames, std::size_t settled);

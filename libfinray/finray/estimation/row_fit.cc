@@ -13,10 +13,10 @@ constexpr double kShare = 0.1;
 // The equilibria of a surface are solved to this tolerance. Newton's method
 // ends far below it.
 constexpr double kSurfaceTolerance = 1e-10;
-// Fits end with a step that lowers chi2 / 2 by less: 1e-4 std on a surface,
+// Fits end with a step that lowers chi2 / 2 by less: 4e-5 std on a surface,
 // which is itself no more exact, and 1e-5 std in equilibrium. What is left is a
 // small part of the step, and nothing without noise.
-constexpr double kLastOnSurface = 1e-8, kLastInEquilibrium = 1e-10;
+constexpr double kLastOnSurface = 1e-9, kLastInEquilibrium = 1e-10;
 constexpr double kSmallChange = 1e-3;
 // 0.3 std where the contact is hardly determined.
 constexpr double kCreeping = 0.05;

@@ -236,6 +236,12 @@ bool TouchDetection::FindContact(const LogFrame& frame,
          free_chi2 - search_.best().chi2 >= FrameEstimator::kSignificance;
 }
 
+double TouchDetection::FreeCameraChi2(const Measurements& row) {
+  Measurements camera = row;
+  camera.gauges_V.assign(row.gauges_V.size(), Measurements::kNotMeasured);
+  return search_.FreeChi2(camera);
+}
+
 double TouchDetection::FreeChi2(const LogFrame& frame,
                                 const Eigen::VectorXd& mean_V,
                                 const Eigen::VectorXd& variance_V2) const {

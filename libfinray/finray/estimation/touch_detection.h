@@ -70,6 +70,8 @@ class TouchDetection {
   /// scene says that every frame has a contact.
   bool FindContact(const LogFrame& frame, const Eigen::VectorXd& mean_V,
                    const Eigen::VectorXd& variance_V2);
+  /// chi2 of what a camera sees of a row, of the free finger.
+  double FreeCameraChi2(const Measurements& row);
   /// The last search of FindContact.
   const ContactSearch& search() const { return search_; }
   /// Makes the frame one that touches, with what the last search has found. If

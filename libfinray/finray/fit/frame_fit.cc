@@ -126,7 +126,7 @@ bool FrameFit::Fit(const Frame& frame, const StartState& start,
     out->rows.clear();
     return false;
   }
-  model_.Stay();
+  if (frame.evaluation != nullptr) model_.Stay();
   // The surface leaves the derivatives by the parameters to the last step.
   complete |= !by_surface();
   settled_ = true;

@@ -1,6 +1,7 @@
 #ifndef FINRAY_MODEL_FINGER_MODEL_H_
 #define FINRAY_MODEL_FINGER_MODEL_H_
 
+#include <array>
 #include <functional>
 #include <utility>
 

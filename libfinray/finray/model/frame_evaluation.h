@@ -71,8 +71,9 @@ class FrameEvaluation {
             const Matrix& d_outputs,
             const std::vector<Eigen::Vector2d>& by_place);
 
-  /// With false, the next Update() in the reduced form leaves out the
-  /// derivatives by anything but the frame unknowns; they are NaN.
+  /// With false, Update() in the reduced form, without pins and movable gauges,
+  /// leaves out the derivatives by anything but the frame unknowns; they are
+  /// NaN.
   void set_by_parameter(bool by_parameter) { by_parameter_ = by_parameter; }
 
   /// Exchanges the friction of the contacts, for rows whose object slides

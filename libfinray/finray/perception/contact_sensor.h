@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/finger.h"
 #include "finray/io/frame_table.h"
 #include "finray/scene/measurement_columns.h"
-#include "finray/estimation/frame_estimator.h"
 #include "finray/statics/shape.h"
 
 namespace finray {

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "finray/io/error.h"
 #include "finray/estimation/chi_squared.h"
+#include "finray/io/error.h"
 
 namespace finray {
 namespace {

@@ -77,8 +77,10 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
                                  SweepColumns columns) {
   newton_.TakeIterations();
   path_fraction_ = 0;
-  status_ =
-      IsBadLoad(contacts) ? SolveStatus::kBadLoad : Attempt(contacts, columns);
+  const bool too_many =
+      columns == SweepColumns::kContacts && contacts.size() > kFittedContacts;
+  status_ = too_many || IsBadLoad(contacts) ? SolveStatus::kBadLoad
+                                            : Attempt(contacts, columns);
   iterations_ = newton_.TakeIterations();
   if (status_ == SolveStatus::kSolved && BendsTooFar(newton_.frame())) {
     status_ = SolveStatus::kRibTooBent;

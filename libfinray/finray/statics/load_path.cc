@@ -59,8 +59,7 @@ double LoadPath::Dot(const double* a, const double* b) const {
 // the direction of travel. `slope` is its component along the load.
 bool LoadPath::FindTangent(double fraction, Eigen::VectorXd* tangent,
                            double* slope) {
-  if (!newton_->Linearize(contacts_, fraction))
-    return false;
+  if (!newton_->Linearize(contacts_, fraction)) return false;
   const double* by_load = newton_->frame().by_load.q;
   const double norm = std::sqrt(Dot(by_load, by_load) + 1);
   if (!std::isfinite(norm)) return false;
@@ -90,8 +89,7 @@ bool LoadPath::GoTo(double arc) {
   const LadderFrame<double>& f = newton_->frame();
   Eigen::VectorXd moved(Size());
   for (corrections_ = 0; corrections_ < kMaxCorrections; ++corrections_) {
-    if (!newton_->Linearize(contacts_, trial_fraction_))
-      return false;
+    if (!newton_->Linearize(contacts_, trial_fraction_)) return false;
     moved = Eigen::Map<const Eigen::VectorXd>(f.state.q, Size()) - start_ +
             Eigen::Map<const Eigen::VectorXd>(f.step.q, Size());
     const double slope = Dot(tangent_.data(), f.by_load.q) + tangent_fraction_;

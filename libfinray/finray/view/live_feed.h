@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "finray/scene/measurements.h"
 #include "finray/estimation/frame_estimate.h"
+#include "finray/scene/measurements.h"
 
 namespace finray {
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "finray/estimation/zeroed_finger.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
-#include "finray/estimation/zeroed_finger.h"
 
 namespace finray {
 

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "finray/estimation/frame_estimate.h"
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
 #include "finray/finger/point_contact.h"
-#include "finray/estimation/frame_estimate.h"
 #include "finray/view/channel.h"
 
 namespace finray {

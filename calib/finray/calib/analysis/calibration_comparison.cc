@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/estimation/chi_squared.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
-#include "finray/estimation/chi_squared.h"
-#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

@@ -11,8 +11,8 @@
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/analysis/score_test.h"
 #include "finray/calib/problem/calibration_problem.h"
-#include "finray/finger/gauge_discrepancy.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/finger/gauge_discrepancy.h"
 
 namespace finray {
 

@@ -15,9 +15,9 @@
 #include "finray/calib/analysis/validation.h"
 #include "finray/calib/solve/contact_store.h"
 #include "finray/calib/solve/frame_pass.h"
+#include "finray/estimation/chi_squared.h"
 #include "finray/fit/calibration_errors.h"
 #include "finray/io/number_text.h"
-#include "finray/estimation/chi_squared.h"
 
 namespace finray {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "finray/io/yaml_emitter.h"
 #include "finray/estimation/frame_estimate.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 

@@ -10,8 +10,8 @@
 
 #include "finray/calib/analysis/residual_correlation.h"
 #include "finray/calib/solve/information_spectrum.h"
-#include "finray/io/number_text.h"
 #include "finray/estimation/chi_squared.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {

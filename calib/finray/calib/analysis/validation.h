@@ -12,8 +12,8 @@
 #include "finray/calib/analysis/stage_fit.h"
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/solve/contact_store.h"
-#include "finray/io/frame_table.h"
 #include "finray/estimation/frame_estimator.h"
+#include "finray/io/frame_table.h"
 
 namespace finray {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "finray/calib/design/planned_recording.h"
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
-#include "finray/estimation/frame_estimator.h"
 
 namespace finray {
 namespace {

@@ -13,8 +13,8 @@
 #include "finray/calib/analysis/refit.h"
 #include "finray/calib/report/doubts.h"
 #include "finray/calib/solve/undecided.h"
-#include "finray/io/number_text.h"
 #include "finray/estimation/gauge_table.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {

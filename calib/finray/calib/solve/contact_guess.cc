@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "finray/calib/solve/frame_surface.h"
@@ -84,7 +83,8 @@ ContactGuess::ContactGuess(const ContactGuess& other)
 
 FrameLinearizer ContactGuess::Linearizer() const {
   return FrameLinearizer(solver_, plan_, &problem_.blocks(),
-                         &problem_.parameters(), surface_.get());
+                         &problem_.parameters(), surface_.get(),
+                         table_->heaviest_N());
 }
 
 ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {

@@ -6,7 +6,8 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const Plan& plan,
                                  const CalibrationBlocks* blocks,
                                  const CalibrationParameters* parameters,
-                                 const ModelSurface* surface)
+                                 const ModelSurface* surface,
+                                 double most_force_N)
     : friction_(parameters->friction()),
       movable_gauges_(plan.MovesGauges()),
       blocks_(*blocks),
@@ -14,8 +15,8 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
       loss_(MakeLoss(plan)),
       fit_(WithEffects(solver, *parameters),
            {&parameters->shared, ColumnsOf(*parameters),
-            static_cast<int>(parameters->free().size()), surface,
-            loss_.get()}) {}
+            static_cast<int>(parameters->free().size()), surface, loss_.get(),
+            most_force_N}) {}
 
 EquilibriumSolver FrameLinearizer::WithEffects(
     EquilibriumSolver solver, const CalibrationParameters& parameters) {

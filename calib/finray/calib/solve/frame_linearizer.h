@@ -2,6 +2,7 @@
 #define FINRAY_CALIB_SOLVE_FRAME_LINEARIZER_H_
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -16,12 +17,15 @@ namespace finray {
 /// one.
 class FrameLinearizer {
  public:
-  /// `blocks` and `parameters` must stay in place, and `surface` too unless it
+  static constexpr double kAnyForce = std::numeric_limits<double>::infinity();
+  /// No fit moves a contact to a force above `most_force_N`. `blocks` and
+  /// `parameters` must stay in place, and `surface` too unless it
   /// is null: the model at the present values, for frames that it serves.
   FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
                   const CalibrationBlocks* blocks,
                   const CalibrationParameters* parameters,
-                  const ModelSurface* surface = nullptr);
+                  const ModelSurface* surface = nullptr,
+                  double most_force_N = kAnyForce);
 
   using StartState = FrameFit::StartState;
 

@@ -39,8 +39,9 @@ void MakeCells(const std::vector<int>& frames, const Contacts& contacts,
   for (const int i : frames) {
     const CalibrationFrame& frame = problem.frame(i);
     if (!FrameLinearizer::FitsSurface(frame, problem.parameters())) continue;
-    wanted.push_back(frame.contact ? contacts[i]
-                                   : FingerModel::FreeContact(problem.finger()));
+    wanted.push_back(frame.contact
+                         ? contacts[i]
+                         : FingerModel::FreeContact(problem.finger()));
   }
   surface.MakeFor(wanted);
 }

@@ -6,8 +6,8 @@
 
 #include "finray/calib/problem/median.h"
 #include "finray/calib/solve/frame_pass.h"
-#include "finray/io/number_text.h"
 #include "finray/estimation/chi_squared.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
