@@ -40,6 +40,7 @@ struct LinearizedFrame {
   /// An expression of the members: keep it in a vector.
   auto WeightedResiduals() const { return weights.cwiseProduct(residuals); }
   /// E'E, the Fisher information of the contacts where nothing else is unknown.
+  /// CovarianceOf (contact_covariance.h) is its inverse.
   ContactMatrix Information() const;
   /// The contacts should move by A + B dx when the parameters move by dx:
   /// (A | B) = -(E'E)^-1 E'(r | C).
