@@ -11,10 +11,10 @@
 namespace finray {
 namespace {
 
-using Contacts = std::vector<PointContact>;
+using ContactLoads = std::vector<PointContact>;
 
 // Both solvers under the same load. `warm` has come from somewhere else.
-void ExpectSame(const Contacts& contacts, EquilibriumSolver* warm) {
+void ExpectSame(const ContactLoads& contacts, EquilibriumSolver* warm) {
   EquilibriumSolver cold(warm->model().finger(), {});
   ASSERT_TRUE(cold.SolveWithSensitivities(contacts));
   ASSERT_TRUE(warm->SolveByContacts(contacts));
@@ -29,25 +29,25 @@ TEST(SolveByContactsTest, EqualsAColdSolveWhereverItComesFrom) {
   EquilibriumSolver solver(PaperFinger(), {});
   // Short and long ways, over the nodes of the mesh, one contact and two, and
   // to a load that refines the mesh.
-  const std::vector<Contacts> loads = {{{40, 2}, {95, 3}},
-                                       {{40.1, 2.01}, {95, 2.9}},
-                                       {{47, 4}, {88, 1}},
-                                       {{47, 4}, {88, 1}},
-                                       {{70, 3}},
-                                       {{71, 3.2}},
-                                       {{20, 9}},
-                                       {{60, 20}, {100, 12}},
-                                       {{59, 21}, {99, 12}},
-                                       {{60, 0.1}, {100, 0.2}},
-                                       {{72, 3, 0.3}},
-                                       {{72, 3, -0.3}},
-                                       {{45, 2, 0, Side::kBack}}};
-  for (const Contacts& load : loads) ExpectSame(load, &solver);
+  const std::vector<ContactLoads> loads = {{{40, 2}, {95, 3}},
+                                           {{40.1, 2.01}, {95, 2.9}},
+                                           {{47, 4}, {88, 1}},
+                                           {{47, 4}, {88, 1}},
+                                           {{70, 3}},
+                                           {{71, 3.2}},
+                                           {{20, 9}},
+                                           {{60, 20}, {100, 12}},
+                                           {{59, 21}, {99, 12}},
+                                           {{60, 0.1}, {100, 0.2}},
+                                           {{72, 3, 0.3}},
+                                           {{72, 3, -0.3}},
+                                           {{45, 2, 0, Side::kBack}}};
+  for (const ContactLoads& load : loads) ExpectSame(load, &solver);
 }
 
 TEST(SolveByContactsTest, TheTangentIsThatOfTheLastSolveOnly) {
   EquilibriumSolver solver(PaperFinger(), {});
-  const Contacts here = {{70, 3}}, there = {{74, 4}};
+  const ContactLoads here = {{70, 3}}, there = {{74, 4}};
   const auto disturb = [&](int how) {
     LadderShot shot;
     switch (how) {
