@@ -14,12 +14,6 @@ namespace {
 
 constexpr int kFrames = 1000;
 
-Finger UncertainFinger() {
-  Finger finger = PaperFinger();
-  finger.calibration = TypicalCovariance(finger);
-  return finger;
-}
-
 // Contacts that move along the finger while their forces grow.
 std::vector<PointContact> ContactsOf(int frame, int count) {
   std::vector<PointContact> contacts;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -30,7 +31,7 @@ class AddedMeasurementTest : public testing::Test {
     EXPECT_TRUE(solver.SolveWithSensitivities({contact_}));
     row_ = CleanReadings(solver);
     row_.tip_mm = solver.tip_pose().head<2>();
-    // What gauges and tip tell together, from the sensitivities of the statics.
+    // The information of gauges and tip, by the sensitivities of the statics.
     const auto& by = solver.d_outputs();
     for (int j = 0; j < 4; ++j) {
       const double weight =
@@ -129,6 +130,14 @@ TEST_F(AddedMeasurementTest, CalibrationsFitIt) {
       [](const double*, LadderState* state) { *state = {}; }, &at));
   EXPECT_LT((at.Information() - information_).norm(),
             1e-6 * information_.norm());
+  std::array<double, 2> contact = {contact_.arc_mm - 5,
+                                   0.8 * contact_.normal_N};
+  LinearizedFrame fitted;
+  ASSERT_TRUE(linearizer.FitContact(
+      logs.frames[0], &contact,
+      [](const double*, LadderState* state) { *state = {}; }, &fitted));
+  EXPECT_LT(std::abs(contact[0] - contact_.arc_mm), 4 * std_[0]);
+  EXPECT_LT(std::abs(contact[1] - contact_.normal_N), 4 * std_[1]);
   // Its residuals depend on the parameters too.
   int tip_rows = 0;
   for (std::size_t i = 0; i < at.rows.size(); ++i) {

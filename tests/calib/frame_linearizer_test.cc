@@ -143,8 +143,10 @@ TEST_F(FrameLinearizerTest, ASurfaceTellsTheSameAsTheEquilibria) {
     const ModelSurface surface(solver, parameters.shared, parameters.friction(),
                                moves_gauges,
                                {Eigen::VectorXd::Constant(outputs, 1e-9)});
+    FrameLinearizer::Options options;
+    options.surface = &surface;
     FrameLinearizer plain(solver, plan_, &blocks, &parameters),
-        by_surface(solver, plan_, &blocks, &parameters, &surface);
+        by_surface(solver, plan_, &blocks, &parameters, options);
     for (const int frame : {0, 3, 7, 30, 41, 63}) {
       const std::array<double, 2> start = {
           std::clamp(logs_.frames[frame].object_mm.y() + 5, 20.0, 120.0),

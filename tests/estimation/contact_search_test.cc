@@ -74,7 +74,7 @@ TEST_F(ContactSearchTest, MissesNoMinimumThatExplainsTheFrame) {
     PackedReadings packed;
     Pack(finger_, {}, row, &packed);
     search_.Begin(row);
-    ASSERT_TRUE(search_.Search(1, row, packed));
+    ASSERT_TRUE(search_.Search(1, packed));
     const ContactSolution& best = search_.best();
     for (const ContactSolution& other : FromAllNodes(row)) {
       // A minimum on a bound yields to others.

@@ -15,7 +15,7 @@ namespace {
 
 #ifdef FINRAY_COUNTS_ALLOCATIONS
 
-TEST(SensingAllocationTest, WarmFitsTakeNone) {
+TEST(EstimationAllocationTest, WarmFitsTakeNone) {
   GaugeLog log(600);
   // Some frames jump.
   for (std::size_t i = 100; i < log.rows.size(); i += 97) {
@@ -58,7 +58,7 @@ TEST(SensingAllocationTest, WarmFitsTakeNone) {
 
 // Neither the right finger nor one whose gauges are off by 3 std. Readings that
 // are as good as without noise solve equilibria, whose mesh may be refined.
-TEST(SensingAllocationTest, LiveFramesTakeNone) {
+TEST(EstimationAllocationTest, LiveFramesTakeNone) {
   for (const double off_std : {0.0, 3.0}) {
     GaugeLog log(600);
     for (Measurements& row : log.rows) {
@@ -86,7 +86,7 @@ TEST(SensingAllocationTest, LiveFramesTakeNone) {
 
 #else
 
-TEST(SensingAllocationTest, WarmFitsTakeNone) {
+TEST(EstimationAllocationTest, WarmFitsTakeNone) {
   GTEST_SKIP() << "malloc cannot be replaced here";
 }
 

@@ -14,8 +14,8 @@ namespace finray {
 
 /// A contact that wanders along the finger while its force swells, up to 0.06
 /// mm and 0.018 N from frame to frame, and noisy readings of the gauges: the
-/// log that sensing is measured and tested on. All gains are 1 V/rad, so that
-/// readings are angles.
+/// log that estimates are measured and tested on. All gains are 1 V/rad, so
+/// that readings are angles.
 struct GaugeLog {
   static constexpr double kNoise_rad = 1e-4;
 

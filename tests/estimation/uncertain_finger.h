@@ -5,6 +5,7 @@
 #include <random>
 
 #include "finray/finger/finger.h"
+#include "test_finger.h"
 
 namespace finray {
 
@@ -41,6 +42,17 @@ inline GaugeDiscrepancy TypicalDiscrepancy(int gauges) {
   Eigen::MatrixXd far = 2 * near;
   far(0, 0) *= 2;
   return {1, {{40, near}, {100, far}}};
+}
+
+/// The paper's finger with gauges of other signs and zeros, and that
+/// covariance.
+inline Finger UncertainFinger() {
+  Finger finger = PaperFinger();
+  finger.gauges[1].gain_V_per_rad = -2.1;
+  finger.gauges[3].offset_V = 0.4;
+  finger.ribs[2].length_mm += 0.2;
+  finger.calibration = TypicalCovariance(finger);
+  return finger;
 }
 
 }  // namespace finray

@@ -99,11 +99,7 @@ ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
       alternative_(scene.contacts != 0),
       limited_(scene.search_iteration_limit.has_value()),
       friction_(scene.friction_coefficient) {
-  constexpr std::size_t kGaugesForTwo = 4;  // as many as unknowns
-  const bool automatic = gauges_.size() >= kGaugesForTwo &&
-                         !scene.object_std_mm && scene.most_contacts == 2;
-  const bool two = scene.contacts ? *scene.contacts == 2 : automatic;
-  if (two) contacts_ = 2;
+  if (scene.MostContacts(gauges_.size()) == 2) contacts_ = 2;
   Measurements readings;
   readings.gauges_V.resize(gauges_.size());
   FrameEstimate estimate;

@@ -20,7 +20,7 @@ constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
 constexpr double kTableFactor = 0.25;
 constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12;
 // A doubted pair matters only if it explains the frame, which is unobservable
-// either way. Most of those that do are found within a quarter of this
+// either way. Nine of ten that do are found within a quarter of this
 // (doubted_pairs_study).
 constexpr int kDoubtedIterations = 64;
 // Contacts that need more iterations from frame to frame have jumped.
@@ -89,19 +89,19 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
                          : EquilibriumForm::kReduced,
                      most_force_N_);
   }
-  // With a limit no frame waits for the table.
-  if (MayFindPairs() && scene.search_iteration_limit) tables_->Pairs(&solver_);
-}
-
-bool ContactSearch::MayFindPairs() const {
-  return !scene_.object_std_mm &&
-         scene_.contacts.value_or(scene_.most_contacts) == 2 &&
-         solver_.model().finger().gauges.size() >= 2 * kFittedContacts;
 }
 
 void ContactSearch::Prepare() {
   if (method_ == FrameMethod::kFast) tables_->surface().MakeAll();
-  if (MayFindPairs()) tables_->Pairs(&solver_);
+  if (scene_.MostContacts(solver_.model().finger().gauges.size()) == 2) {
+    tables_->Pairs(&solver_);
+  }
+}
+
+bool ContactSearch::IsDoubted(const PackedReadings& packed) const {
+  return !scene_.contacts &&
+         scene_.MostContacts(static_cast<std::size_t>(packed.gauges)) == 2 &&
+         packed.all <= 2 * kFittedContacts;
 }
 
 void ContactSearch::Spend(int iterations, bool converged) {
@@ -143,8 +143,8 @@ bool ContactSearch::IsExplained(double chi2, int dof) {
                  : ChiSquaredTail(chi2, dof) > kWellExplained;
 }
 
-bool ContactSearch::Search(int contacts, const Measurements& row,
-                           const PackedReadings& packed, double least_force_N) {
+bool ContactSearch::Search(int contacts, const PackedReadings& packed,
+                           double least_force_N) {
   const int dof = packed.all - 2 * contacts;
   // The surface's contacts have the scene's friction.
   on_surface_ = method_ == FrameMethod::kFast && contacts == 1 &&
@@ -174,13 +174,13 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     double needed = GaugeTable::kAnyChi2;
     if (!close || most_chi2 == GaugeTable::kAnyChi2) {
       found_.Clear();
-      needed = TryStarts(contacts, row, packed, most_chi2, least_force_N);
+      needed = TryStarts(contacts, packed, most_chi2, least_force_N);
     }
     if (!(needed > most_chi2)) break;
     most_chi2 = needed;
   }
   if (contacts == 2 && !found_.empty() && packed.camera == 0 && !doubted) {
-    ProfileBest(packed, &row);
+    ProfileBest(packed);
   }
   suspect_ = contacts == 2 && found_.rival(kSuspect) != nullptr;
   // A camera's points are not in the table.
@@ -195,9 +195,8 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   return !found_.empty();
 }
 
-double ContactSearch::TryStarts(int contacts, const Measurements& row,
-                                const PackedReadings& packed, double most_chi2,
-                                double least_force_N) {
+double ContactSearch::TryStarts(int contacts, const PackedReadings& packed,
+                                double most_chi2, double least_force_N) {
   const int dof = packed.all - 2 * contacts;
   // A rival may be hidden by noise, and two contacts are followed from here.
   const double within = contacts == 2 ? kSuspect : kWithinNoise;
@@ -219,7 +218,7 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
     }
     if (!MayGoOn()) break;
     if (problem_) {
-      if (FitByCeres(start, row)) found_.Keep();
+      if (FitByCeres(start)) found_.Keep();
       continue;
     }
     if (Fit(start)) {
@@ -234,9 +233,7 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
 }
 
 double ContactSearch::FreeChi2(const Measurements& row) {
-  if (problem_) return problem_->FreeChi2(row);
-  fit_.set_row(row);
-  return fit_.FreeChi2();
+  return problem_ ? problem_->FreeChi2(row) : fit_.FreeChi2(row);
 }
 
 void ContactSearch::FindStarts(int contacts, const PackedReadings& packed,
@@ -347,14 +344,13 @@ bool ContactSearch::Follow(const PackedReadings& packed) {
   }
   ++turn_;
   if (packed.camera == 0 && !IsDoubted(packed)) {
-    ProfileBest(packed, nullptr);
+    ProfileBest(packed);
   }
   suspect_ = found_.rival(kSuspect) != nullptr;
   return !suspect_ && found_.first().chi2 < best().chi2 + kWithinNoise;
 }
 
-void ContactSearch::ProfileBest(const PackedReadings& packed,
-                                const Measurements* row) {
+void ContactSearch::ProfileBest(const PackedReadings& packed) {
   for (int round = 0; round < kMostProfiles && MayGoOn(); ++round) {
     ProfilePair(best(), packed, friction_, most_force_N_, LeftOfLimit(),
                 &solver_, &pair_profile_, &profile_);
@@ -363,7 +359,7 @@ void ContactSearch::ProfileBest(const PackedReadings& packed,
     for (int i = 0; i < pair_profile_.count && !found_.full(); ++i) {
       if (!MayGoOn()) return;
       const ContactStart& start = pair_profile_.minima[i];
-      if (problem_ ? FitByCeres(start, *row) : FitEquilibria(start, Left())) {
+      if (problem_ ? FitByCeres(start) : FitEquilibria(start, Left())) {
         found_.Keep();
       }
     }
@@ -371,9 +367,8 @@ void ContactSearch::ProfileBest(const PackedReadings& packed,
   }
 }
 
-bool ContactSearch::FitByCeres(const ContactStart& start,
-                               const Measurements& row) {
-  const bool converged = problem_->Fit(start, row, &found_.next());
+bool ContactSearch::FitByCeres(const ContactStart& start) {
+  const bool converged = problem_->Fit(start, *row_, &found_.next());
   Spend(problem_->iterations(), converged);
   return converged;
 }

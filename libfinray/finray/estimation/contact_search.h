@@ -57,19 +57,18 @@ class ContactSearch {
   void Begin(const Measurements& row) {
     spent_ = 0;
     ended_ = suspect_ = false;
+    row_ = &row;
     fit_.set_row(row);
   }
   /// Searches with one or two contacts. Returns false if no start converged. A
   /// contact with less than `least_force_N` is none. If IsDoubted, the first
   /// pair that explains the frame ends the search, or a number of iterations.
-  bool Search(int contacts, const Measurements& row,
-              const PackedReadings& packed, double least_force_N = 0);
+  bool Search(int contacts, const PackedReadings& packed,
+              double least_force_N = 0);
   /// Says whether the gauges of a frame do not tell whether there are two
   /// contacts: with `contacts: auto`, as many unknowns as readings. Whatever
   /// pair is found is then unobservable.
-  bool IsDoubted(const PackedReadings& packed) const {
-    return !scene_.contacts && packed.all <= 2 * kFittedContacts;
-  }
+  bool IsDoubted(const PackedReadings& packed) const;
 
   // Frames with two contacts that follow each other:
 
@@ -130,7 +129,6 @@ class ContactSearch {
   double most_force_N() const { return most_force_N_; }
 
  private:
-  bool MayFindPairs() const;
   // The iterations left by the limit; and what a fit may take of them.
   int LeftOfLimit() const;
   int Left() const;
@@ -143,15 +141,14 @@ class ContactSearch {
                   double most_chi2 = GaugeTable::kAnyChi2);
   // Fits from the starts of a profile that reaches to `most_chi2`. Returns how
   // far it must reach; if that is farther, not all starts are tried.
-  double TryStarts(int contacts, const Measurements& row,
-                   const PackedReadings& packed, double most_chi2,
+  double TryStarts(int contacts, const PackedReadings& packed, double most_chi2,
                    double least_force_N);
   // Says whether the best pair is all that can be known of a frame.
   bool IsEnough(const PackedReadings& packed, double least_force_N) const;
   // Profiles the best pair, and fits from where its profile has other minima,
   // until they lead to no better one. The profile is then that of the best
-  // pair. Ceres needs the row.
-  void ProfileBest(const PackedReadings& packed, const Measurements* row);
+  // pair.
+  void ProfileBest(const PackedReadings& packed);
   // Fits from rows of the table that the solutions found do not account for:
   // from all of them where minima are `close`, else from those beside which
   // chi2 changes too sharply for the table to show a minimum between rows.
@@ -172,7 +169,7 @@ class ContactSearch {
   // With `known`, a solution is there already if it does not converge. Takes at
   // most `most` iterations.
   bool FitEquilibria(const ContactStart& start, int most, bool known = false);
-  bool FitByCeres(const ContactStart& start, const Measurements& row);
+  bool FitByCeres(const ContactStart& start);
 
   Scene scene_;
   double friction_, length_mm_;
@@ -183,6 +180,7 @@ class ContactSearch {
   FoundSolutions found_;
   FrameMethod method_;
   bool on_surface_ = false, exact_fit_ = false;  // this search
+  const Measurements* row_ = nullptr;
   RowFit fit_;
   std::optional<FrameProblem> problem_;         // if Ceres solves
   std::vector<ContactStart> profile_, starts_;  // of one contact

@@ -86,6 +86,10 @@ struct FrameEstimate {
   /// The scene's search_iteration_limit has ended the search. The frame is then
   /// neither ok nor no_contact: what was left to try may explain it better.
   bool search_ended = false;
+  /// `contacts: auto` has found one contact, which leaves so much chi2 that a
+  /// second one would be looked for, but for too few readings to tell whether
+  /// it is there (FrameEstimator::kDoubtedSignificance).
+  bool may_be_two = false;
   /// A distinct solution with as many contacts that explains the frame within
   /// its noise, and its chi2. NaN if there is none.
   ContactEstimates alternative;

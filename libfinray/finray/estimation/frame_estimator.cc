@@ -209,10 +209,10 @@ void FrameEstimator::Automatic(const Measurements& readings,
                                FrameEstimate* estimate) {
   if (packed.free_chi2 < kSignificance) return Free(packed, estimate);
   Unsolved(FrameStatus::kNotConverged, estimate);
-  // Of the second contact.
+  // A second contact must lower chi2 by so much.
   const double significance =
       search_.IsDoubted(packed) ? kDoubtedSignificance : kSecondSignificance;
-  const bool one = search_.Search(1, readings, packed);
+  const bool one = search_.Search(1, packed);
   if (one) {
     if (packed.free_chi2 - search_.best().chi2 < kSignificance) {
       return Free(packed, estimate);
@@ -223,17 +223,14 @@ void FrameEstimator::Automatic(const Measurements& readings,
   // first and the second have to do.
   const double without =
       one ? search_.best().chi2 : packed.free_chi2 - kSignificance;
-  const int needed = 2 * kUnknowns;
-  if (without < significance || scene_.most_contacts < 2 ||
-      packed.gauges < needed || scene_.object_std_mm) {
-    return;
-  }
+  const auto gauges = static_cast<std::size_t>(packed.gauges);
+  if (without < significance || scene_.MostContacts(gauges) < 2) return;
   // Errors of the calibration bend the readings of one contact too. A second
   // one must explain more than they do.
   const double model_without = one ? ModelChi2(readings, packed) : without;
   if (model_without < significance) return;
   const int before = search_.iterations();
-  if (!Fit(2, readings, packed)) return;
+  if (!Fit(2, packed)) return;
   const ContactSolution& two = search_.best();
   for (const PointContact& contact : two.contacts) {
     if (contact.normal_N < least_force_N_) return;
@@ -260,7 +257,7 @@ void FrameEstimator::WithContacts(const Measurements& readings,
                                   const PackedReadings& packed, int contacts,
                                   FrameEstimate* estimate) {
   if (contacts == 0) return Free(packed, estimate);
-  if (!Fit(contacts, readings, packed)) {
+  if (!Fit(contacts, packed)) {
     return Unsolved(FrameStatus::kNotConverged, estimate);
   }
   const ContactSolution& best = search_.best();
@@ -272,11 +269,10 @@ void FrameEstimator::WithContacts(const Measurements& readings,
   Found(readings, packed, estimate);
 }
 
-bool FrameEstimator::Fit(int contacts, const Measurements& readings,
-                         const PackedReadings& packed) {
+bool FrameEstimator::Fit(int contacts, const PackedReadings& packed) {
   return following_two_ && contacts == 2
              ? search_.Follow(packed)
-             : search_.Search(contacts, readings, packed, least_force_N_);
+             : search_.Search(contacts, packed, least_force_N_);
 }
 
 // Copies into the memory of the estimate: most frames of a log are free.
@@ -379,13 +375,12 @@ void FrameEstimator::Judge(const Measurements& readings,
   estimate->status = StatusOf(*estimate, finger_, search_);
   // Two contacts explain any reading of as many gauges as unknowns, so that
   // nothing there says whether there are two.
-  const bool may_be_two = scene_.most_contacts > 1 && !scene_.object_std_mm &&
-                          packed.gauges >= 2 * kUnknowns;
-  if (search_.IsDoubted(packed) &&
-      (estimate->contacts == 2 ||
-       (may_be_two && estimate->explained_chi2() >= kDoubtedSignificance))) {
+  if (!search_.IsDoubted(packed)) return;
+  const double chi2 = estimate->explained_chi2();
+  if (estimate->contacts == 2 || chi2 >= kDoubtedSignificance) {
     estimate->status = FrameStatus::kUnobservable;
   }
+  estimate->may_be_two = estimate->contacts == 1 && chi2 >= kSecondSignificance;
 }
 
 void FrameEstimator::AddCovariance(const ContactMatrix& covariance,

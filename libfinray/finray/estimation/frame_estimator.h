@@ -158,8 +158,7 @@ class FrameEstimator {
   void WithContacts(const Measurements& readings, const PackedReadings& packed,
                     int contacts, FrameEstimate* estimate);
   // Searches, or follows if following_two_.
-  bool Fit(int contacts, const Measurements& readings,
-           const PackedReadings& packed);
+  bool Fit(int contacts, const PackedReadings& packed);
   void Free(const PackedReadings& packed, FrameEstimate* estimate) const;
   void Unsolved(FrameStatus status, FrameEstimate* estimate) const;
   // The best solution of the search as an estimate.

@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 
-#include "finray/estimation/parabola_slope.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
@@ -58,15 +57,23 @@ void MoveBetweenRows(const ContactStart& below, const ContactStart& above,
   start->chi2 = std::max(0.0, start->chi2 - 0.5 * rows * std::abs(slope));
 }
 
-// Sets each node's slope to that of the parabola through it and its neighbours.
+// Sets each node's slope to that of the parabola through it and its neighbours,
+// or through three nodes at an end.
 void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
   for (std::size_t k = 0; k < nodes->size(); ++k) {
     GaugeTable::Node& node = (*nodes)[k];
     node.by_force.setZero(node.values.size());
     if (nodes->size() < 3) continue;
-    node.by_force = ParabolaSlope(
-        nodes->size(), k, [&](std::size_t i) { return (*nodes)[i].normal_N; },
-        [&](std::size_t i) { return Eigen::VectorXd((*nodes)[i].values); });
+    const auto middle = std::clamp<std::size_t>(k, 1, nodes->size() - 2);
+    const GaugeTable::Node &a = (*nodes)[middle - 1], &b = (*nodes)[middle],
+                           &c = (*nodes)[middle + 1];
+    const Eigen::VectorXd left =
+                              (b.values - a.values) / (b.normal_N - a.normal_N),
+                          right =
+                              (c.values - b.values) / (c.normal_N - b.normal_N);
+    const double share = (2 * node.normal_N - a.normal_N - b.normal_N) /
+                         (c.normal_N - a.normal_N);
+    node.by_force = left + share * (right - left);
   }
 }
 

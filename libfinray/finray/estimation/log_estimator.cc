@@ -30,7 +30,7 @@ const Finger& Checked(const Finger& finger, const Scene& scene) {
                      " cannot be estimated with the whole log; 0, 1 and auto "
                      "can");
   }
-  // What decides who touches goes by the gauges.
+  // TouchDetection decides by the gauges alone which frames touch.
   if (scene.UsesCamera() && !scene.contacts) {
     throw InputError(
         "scene: pin_std_mm and tip_std_mm with the whole log need to know who "

@@ -77,8 +77,8 @@ RowFit::RowFit(const Finger& finger, const Scene& scene,
   on_equilibria_.solver().set_near_only(true);
 }
 
-double RowFit::FreeChi2() {
-  const FrameFit::Frame frame = frames_.Of(*row_, nullptr, 0);
+double RowFit::FreeChi2(const Measurements& row) {
+  const FrameFit::Frame frame = frames_.Of(row, nullptr, 0);
   FrameEvaluation& evaluation = *frame.evaluation;
   if (!evaluation.valid()) {
     EquilibriumSolver solver = frames_.solver();

@@ -32,9 +32,9 @@ class RowFit {
   /// Sets the row of the fits that follow. It must stay in place.
   void set_row(const Measurements& row) { row_ = &row; }
 
-  /// chi2 of the row without a contact; infinite if the finger has no
+  /// chi2 of a row without a contact; infinite if the finger has no
   /// equilibrium.
-  double FreeChi2();
+  double FreeChi2(const Measurements& row);
 
   enum class Model {
     kSurface,

@@ -230,9 +230,9 @@ bool TouchDetection::FindContact(const LogFrame& frame,
   measurement_.free_chi2 = free_chi2;
   if (measurement_.all < 2 || scene_.contacts == 0) return false;
   search_.Begin(moved_);
-  if (scene_.contacts) return search_.Search(1, moved_, measurement_);
+  if (scene_.contacts) return search_.Search(1, measurement_);
   return free_chi2 >= FrameEstimator::kSignificance &&
-         search_.Search(1, moved_, measurement_) &&
+         search_.Search(1, measurement_) &&
          free_chi2 - search_.best().chi2 >= FrameEstimator::kSignificance;
 }
 

@@ -48,7 +48,7 @@ ContactsStd ProfiledStd(const std::vector<ContactStart>& places,
                         const ContactSolution& solution, const ContactsStd& std,
                         double scale, const ProfileRule& rule);
 
-/// What the profile says of one contact.
+/// The std and intervals of one contact by its profile.
 struct Valley {
   /// ProfiledStd over those of the minimum, 1 or more.
   double arc_factor, normal_factor;

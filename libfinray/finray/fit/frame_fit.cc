@@ -126,7 +126,7 @@ bool FrameFit::Fit(const Frame& frame, const StartState& start,
     out->rows.clear();
     return false;
   }
-  if (frame.evaluation != nullptr) model_.Stay();
+  if (frame.evaluation != nullptr) model_.Stay(*frame.evaluation);
   // The surface leaves the derivatives by the parameters to the last step.
   complete |= !by_surface();
   settled_ = true;
@@ -182,7 +182,7 @@ void FrameFit::Descend(const Frame& frame, const Ending& ending, bool* complete,
                       GradientOf(*out, tried_, unit),
                       GradientOf(tried_, tried_, unit), &curvature);
       best = contacts;
-      model_.Stay();
+      model_.Stay(*frame.evaluation);
       std::swap(*out, tried_);
       *complete = all || !by_surface();
       rejected = failed = false;

@@ -102,7 +102,8 @@ class LadderNewton {
   int iterations_ = 0, longest_run_ = 0;
   double turn_ = 0;
   std::vector<double> angles_before_;
-  // Those of the last Converge, if the frame still holds its tangent.
+  // The contacts of the last Converge; empty where the frame does not hold its
+  // tangent any more.
   std::vector<PointContact> tangent_of_;
 };
 

@@ -9,9 +9,9 @@ void FingerModel::Begin(const StartState& start) {
   is_near_ = solver_is_near_ = by_surface_ = false;
 }
 
-void FingerModel::Stay() {
+void FingerModel::Stay(const FrameEvaluation& frame) {
   if (by_surface_) return;
-  std::swap(near_, reached_);
+  near_ = frame.state();
   solver_is_near_ = true;
 }
 
@@ -53,9 +53,7 @@ bool FingerModel::Solve(const double* contacts, FrameEvaluation* frame) {
   solver_is_near_ = false;
   frame->set_by_parameter(source_.by_parameter);
   frame->Update(contacts, *source_.parameters, &solver_);
-  if (!frame->valid()) return false;
-  reached_ = frame->state();
-  return true;
+  return frame->valid();
 }
 
 }  // namespace finray

@@ -21,10 +21,10 @@ namespace finray {
 /// serves the frame. Sequences of contacts near each other allocate nothing.
 class FingerModel {
  public:
-  /// What it points to must stay in place. Without a surface every evaluation
-  /// solves an equilibrium; if it `solves` none, frames that the surface does
-  /// not serve have no values. Without `by_parameter` only the derivatives by
-  /// the contacts are computed.
+  /// The parameters and the surface must stay in place. Without a surface every
+  /// evaluation solves an equilibrium; if it `solves` none, frames that the
+  /// surface does not serve have no values. Without `by_parameter` only the
+  /// derivatives by the contacts are computed.
   struct Source {
     const SharedParameters* parameters = nullptr;
     const ModelSurface* surface = nullptr;
@@ -52,9 +52,9 @@ class FingerModel {
   /// derivatives by the parameters may be left undefined. Returns false if the
   /// model cannot be evaluated there.
   bool Evaluate(const double* contacts, bool all, FrameEvaluation* frame);
-  /// The sequence goes on from the last evaluation. Otherwise the next solve
-  /// starts where the one before did.
-  void Stay();
+  /// The sequence goes on from the last evaluation, which filled `frame`.
+  /// Otherwise the next solve starts where the one before did.
+  void Stay(const FrameEvaluation& frame);
 
   /// The last evaluation needed no solve. Then error() says about how far its
   /// outputs may be off, in units of the surface's resolution.
@@ -72,12 +72,11 @@ class FingerModel {
 
   EquilibriumSolver solver_;
   Source source_;
-  // near_ is where the next solve starts, if is_near_; reached_ is where the
-  // last one ended, unless by_surface_.
+  // near_ is where the next solve starts, if is_near_.
   const StartState* start_ = nullptr;
   bool is_near_ = false, by_surface_ = false;
   bool solver_is_near_ = false;  // the solver is at near_
-  LadderState near_, reached_;
+  LadderState near_;
   ModelSurface::Values values_;
 };
 

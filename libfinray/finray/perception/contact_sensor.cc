@@ -79,16 +79,8 @@ ContactSensor::ContactSensor(const Finger& finger, const Scene& scene,
 SensedFrame ContactSensor::Sense(const Measurements& readings) {
   const FrameEstimate estimate = estimator_.Estimate(readings);
   if (estimate.status != FrameStatus::kOk) return {estimate.status, {}, {}};
-  // An edge and a corner touch at two places. With as many readings as unknowns
-  // of two contacts, the estimate does not look for a second one where an error
-  // of the finger may be as large.
-  const bool doubted = !scene_.contacts && scene_.most_contacts > 1 &&
-                       !scene_.object_std_mm && estimate.contacts == 1 &&
-                       estimate.dof <= FrameEstimator::kUnknowns;
-  if (doubted &&
-      estimate.explained_chi2() >= FrameEstimator::kSecondSignificance) {
-    return {FrameStatus::kUnobservable, {}, {}};
-  }
+  // An edge and a corner touch at two places.
+  if (estimate.may_be_two) return {FrameStatus::kUnobservable, {}, {}};
   std::vector<PointContact> contacts;
   for (int c = 0; c < estimate.contacts; ++c) {
     contacts.push_back({estimate.contact[c].arc_mm,

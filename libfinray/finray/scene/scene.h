@@ -1,6 +1,8 @@
 #ifndef FINRAY_SCENE_SCENE_H_
 #define FINRAY_SCENE_SCENE_H_
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,6 +77,14 @@ struct Scene {
     return {friction_coefficient, friction_std};
   }
   bool UsesCamera() const { return pin_std_mm || tip_std_mm; }
+  /// The number of contacts that an estimate may find with readings of so many
+  /// gauges. With `contacts: auto` two need a gauge for each of their four
+  /// unknowns, and a measured object touches once.
+  int MostContacts(std::size_t gauges) const {
+    if (contacts) return *contacts;
+    return object_std_mm || gauges < 4 ? std::min(1, most_contacts)
+                                       : most_contacts;
+  }
   /// The radius of the object if it is a circle, else empty.
   std::optional<double> circle_radius_mm() const {
     return object ? object->outline.circle_radius_mm() : std::nullopt;

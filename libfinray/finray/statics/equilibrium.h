@@ -75,9 +75,9 @@ class EquilibriumSolver {
     return SolveFor(contacts, SweepColumns::kParameters);
   }
 
-  /// As SolveWithSensitivities, for up to kFittedContacts contacts, with the
-  /// columns [l_c, f_c of each contact] only. A sequence of such solves starts
-  /// each from the tangent at the one before.
+  /// Finds the equilibrium under up to kFittedContacts contacts, and fills the
+  /// columns [l_c, f_c of each contact] of d_outputs(). Each solve of a
+  /// sequence starts from the tangent at the solve before.
   bool SolveByContacts(const std::vector<PointContact>& contacts) {
     return SolveFor(contacts, SweepColumns::kContacts);
   }

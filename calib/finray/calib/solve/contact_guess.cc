@@ -34,11 +34,6 @@ EquilibriumSolver NearSolver(const CalibrationProblem& problem) {
   return solver;
 }
 
-Plan WithoutLoss(Plan plan) {
-  plan.loss = RobustLoss::kNone;
-  return plan;
-}
-
 // The radius of the circle at the present parameters, if there is a circle.
 std::optional<double> RadiusOf(const CalibrationProblem& problem) {
   return problem.plan().scene.circle_radius_mm()
@@ -57,7 +52,6 @@ std::shared_ptr<const GaugeTable> TableOf(const CalibrationProblem& problem) {
 
 ContactGuess::ContactGuess(CalibrationProblem* problem, bool many)
     : problem_(*problem),
-      plan_(WithoutLoss(problem->plan())),
       solver_(NearSolver(*problem)),
       table_(TableOf(*problem)),
       surface_(many ? std::make_shared<const ModelSurface>(
@@ -73,7 +67,6 @@ ContactGuess::ContactGuess(CalibrationProblem* problem, bool many)
 
 ContactGuess::ContactGuess(const ContactGuess& other)
     : problem_(other.problem_),
-      plan_(other.plan_),
       solver_(other.solver_),
       table_(other.table_),
       surface_(other.surface_),
@@ -82,9 +75,12 @@ ContactGuess::ContactGuess(const ContactGuess& other)
       weights_(other.weights_) {}
 
 FrameLinearizer ContactGuess::Linearizer() const {
-  return FrameLinearizer(solver_, plan_, &problem_.blocks(),
-                         &problem_.parameters(), surface_.get(),
-                         table_->heaviest_N());
+  FrameLinearizer::Options options;
+  options.surface = surface_.get();
+  options.most_force_N = table_->heaviest_N();
+  options.calibrates = false;
+  return FrameLinearizer(solver_, problem_.plan(), &problem_.blocks(),
+                         &problem_.parameters(), options);
 }
 
 ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {

@@ -50,7 +50,6 @@ class ContactGuess {
   FrameLinearizer Linearizer() const;
 
   CalibrationProblem& problem_;
-  Plan plan_;  // without a loss
   EquilibriumSolver solver_;
   std::shared_ptr<const GaugeTable> table_;
   std::shared_ptr<const ModelSurface> surface_;  // null: none

@@ -6,17 +6,14 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const Plan& plan,
                                  const CalibrationBlocks* blocks,
                                  const CalibrationParameters* parameters,
-                                 const ModelSurface* surface,
-                                 double most_force_N)
+                                 const Options& options)
     : friction_(parameters->friction()),
       movable_gauges_(plan.MovesGauges()),
       blocks_(*blocks),
       parameters_(*parameters),
-      loss_(MakeLoss(plan)),
+      loss_(options.calibrates ? MakeLoss(plan) : nullptr),
       fit_(WithEffects(solver, *parameters),
-           {&parameters->shared, ColumnsOf(*parameters),
-            static_cast<int>(parameters->free().size()), surface, loss_.get(),
-            most_force_N}) {}
+           SharedOf(*parameters, loss_.get(), options)) {}
 
 EquilibriumSolver FrameLinearizer::WithEffects(
     EquilibriumSolver solver, const CalibrationParameters& parameters) {
@@ -25,13 +22,20 @@ EquilibriumSolver FrameLinearizer::WithEffects(
   return solver;
 }
 
-std::unordered_map<const double*, int> FrameLinearizer::ColumnsOf(
-    const CalibrationParameters& parameters) {
-  std::unordered_map<const double*, int> columns;
-  for (std::size_t k = 0; k < parameters.free().size(); ++k) {
-    columns.emplace(parameters.FreeParameter(k).block, static_cast<int>(k));
+FrameFit::Shared FrameLinearizer::SharedOf(
+    const CalibrationParameters& parameters, const ceres::LossFunction* loss,
+    const Options& options) {
+  FrameFit::Shared shared;
+  shared.parameters = &parameters.shared;
+  shared.surface = options.surface;
+  shared.loss = loss;
+  shared.most_force_N = options.most_force_N;
+  if (!options.calibrates) return shared;
+  shared.columns = static_cast<int>(parameters.free().size());
+  for (int k = 0; k < shared.columns; ++k) {
+    shared.column_of.emplace(parameters.FreeParameter(k).block, k);
   }
-  return columns;
+  return shared;
 }
 
 bool FrameLinearizer::FitsSurface(const CalibrationFrame& frame,

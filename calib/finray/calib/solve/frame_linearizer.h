@@ -17,15 +17,24 @@ namespace finray {
 /// one.
 class FrameLinearizer {
  public:
-  static constexpr double kAnyForce = std::numeric_limits<double>::infinity();
-  /// No fit moves a contact to a force above `most_force_N`. `blocks` and
-  /// `parameters` must stay in place, and `surface` too unless it
-  /// is null: the model at the present values, for frames that it serves.
+  struct Options {
+    /// The model at the present values, for frames that it serves; or null.
+    const ModelSurface* surface = nullptr;
+    /// No fit moves a contact to a larger force.
+    double most_force_N = std::numeric_limits<double>::infinity();
+    /// The plan's loss and the derivatives by the parameters. A guess needs
+    /// neither.
+    bool calibrates = true;
+  };
+  /// The objects behind the pointers must stay in place.
   FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
                   const CalibrationBlocks* blocks,
                   const CalibrationParameters* parameters,
-                  const ModelSurface* surface = nullptr,
-                  double most_force_N = kAnyForce);
+                  const Options& options);
+  FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
+                  const CalibrationBlocks* blocks,
+                  const CalibrationParameters* parameters)
+      : FrameLinearizer(solver, plan, blocks, parameters, Options()) {}
 
   using StartState = FrameFit::StartState;
 
@@ -53,8 +62,9 @@ class FrameLinearizer {
  private:
   static EquilibriumSolver WithEffects(EquilibriumSolver solver,
                                        const CalibrationParameters& parameters);
-  static std::unordered_map<const double*, int> ColumnsOf(
-      const CalibrationParameters& parameters);
+  static FrameFit::Shared SharedOf(const CalibrationParameters& parameters,
+                                   const ceres::LossFunction* loss,
+                                   const Options& options);
   FrameFit::Frame Prepare(const CalibrationFrame& frame,
                           const std::array<double, 2>& contact);
 

@@ -71,9 +71,10 @@ void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
     if (surface) MakeCells(frames, contacts, *problem, *surface);
   });
   tbb::enumerable_thread_specific<FrameLinearizer> linearizers([&] {
+    FrameLinearizer::Options options;
+    if (surface) options.surface = &*surface;
     return FrameLinearizer(solver, plan, &problem->blocks(),
-                           &problem->parameters(),
-                           surface ? &*surface : nullptr);
+                           &problem->parameters(), options);
   });
   const int threads = problem->threads();
   // The pipeline holds at most ring.size() chunks and finishes them in order.
