@@ -9,6 +9,7 @@
 #include <random>
 
 #include "count_allocations.h"
+#include "estimation/gauge_volts.h"
 #include "estimation/uncertain_finger.h"
 #include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"

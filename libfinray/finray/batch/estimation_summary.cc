@@ -96,7 +96,10 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
       estimate.status == FrameStatus::kBadInput) {
     return;
   }
-  unexplained += estimate.IsUnexplained();
+  // Two contacts may explain what they make unobservable.
+  unexplained += estimate.IsUnexplained() &&
+                 !(estimate.may_be_two &&
+                   estimate.status == FrameStatus::kUnobservable);
   // The contacts of unobservable frames are unreliable, so they are not
   // compared.
   if (estimate.status == FrameStatus::kUnobservable) return;

@@ -9,6 +9,7 @@
 #include "finray/estimation/contact_solution.h"
 #include "finray/estimation/found_solutions.h"
 #include "finray/estimation/frame_problem.h"
+#include "finray/estimation/iteration_budget.h"
 #include "finray/estimation/packed_readings.h"
 #include "finray/estimation/pair_profile.h"
 #include "finray/estimation/row_fit.h"
@@ -52,44 +53,37 @@ class ContactSearch {
   /// Makes what searches would make when they first need it.
   void Prepare();
 
-  /// Begins a frame. Its searches share Scene::search_iteration_limit. `row`
-  /// must stay in place.
-  void Begin(const Measurements& row) {
-    spent_ = 0;
-    ended_ = suspect_ = false;
-    row_ = &row;
-    fit_.set_row(row);
-  }
+  /// Begins a frame. Its searches share Scene::search_iteration_limit. A search
+  /// for two contacts goes on from the pairs that the frame before has left.
+  /// `row` must stay in place.
+  void Begin(const Measurements& row);
+  /// The next frame does not follow the last one.
+  void Forget();
   /// Searches with one or two contacts. Returns false if no start converged. A
   /// contact with less than `least_force_N` is none. If IsDoubted, the first
   /// pair that explains the frame ends the search, or a number of iterations.
   bool Search(int contacts, const PackedReadings& packed,
               double least_force_N = 0);
-  /// Says whether the gauges of a frame do not tell whether there are two
+  /// Returns true if the gauges of a frame do not tell whether there are two
   /// contacts: with `contacts: auto`, as many unknowns as readings. Whatever
   /// pair is found is then unobservable.
   bool IsDoubted(const PackedReadings& packed) const;
 
-  // Frames with two contacts that follow each other:
-
-  /// After a search for two contacts: prepares Follow for a frame with the same
-  /// gauges. Returns false if the frame after must be searched.
-  bool BeginFollowing();
-  /// Fits two contacts from those that the last frame left, and from one start
-  /// of the table, another one in every frame. Returns false, and leaves no
-  /// results, where only a search can tell what explains the frame: the
-  /// contacts have jumped, chi2 has risen since the search, or the start leads
-  /// to others that explain the frame too.
-  bool Follow(const PackedReadings& packed);
-  /// Says whether a search for two contacts or Follow has found, in this frame,
-  /// a solution that noise makes a rival in some frames.
-  bool HasSuspect() const { return suspect_; }
+  /// How the last search of a frame began.
+  enum class Course {
+    kSearched,   ///< From all starts.
+    kContinued,  ///< From the pairs of the frame before, and one start more.
+    /// So too, and that one has led to another pair, which noise makes a rival
+    /// in some frames: also of the frames before, back to a searched one.
+    kSurprised,
+  };
+  Course course() const { return course_; }
 
   /// chi2 of the finger without a contact.
   double FreeChi2(const Measurements& row);
 
   /// A search of this frame was ended by the limit, with starts left to try.
-  bool ended() const { return ended_; }
+  bool ended() const { return budget_.ended(); }
 
   // Results of the last successful search.
 
@@ -101,7 +95,7 @@ class ContactSearch {
   /// IsDoubted. Empty without gauges.
   const std::vector<ContactStart>& profile() const { return profile_; }
   /// Number of iterations of all fits of the last search.
-  int iterations() const { return iterations_; }
+  int iterations() const { return budget_.spent(); }
 
   /// Says whether noise plausibly makes chi2 this large. Without degrees of
   /// freedom, says whether chi2 is nearly zero.
@@ -116,33 +110,37 @@ class ContactSearch {
   /// The friction of the contacts of the searches that follow; the scene's at
   /// first. Starts come from the table with the scene's.
   void set_friction(double friction) {
-    friction_ = friction;
     fit_.set_friction(friction);
     if (problem_) problem_->set_friction(friction);
   }
-  double friction() const { return friction_; }
+  double friction() const { return fit_.friction(); }
 
   const std::shared_ptr<const SearchTables>& tables() const { return tables_; }
-  const GaugeTable& table() const { return table_; }
+  const GaugeTable& table() const { return tables_->table(); }
   /// The largest credible force: the scene's force_max_N, by default
   /// table().heaviest_N().
-  double most_force_N() const { return most_force_N_; }
+  double most_force_N() const { return found_.most_force_N(); }
 
  private:
-  // The iterations left by the limit; and what a fit may take of them.
-  int LeftOfLimit() const;
-  int Left() const;
-  // Says whether another fit may begin. It then gets the iterations left.
-  bool MayGoOn();
-  // Counts the iterations of a fit.
-  void Spend(int iterations, bool converged);
+  const Finger& finger() const { return pair_profile_.finger(); }
+  // Says whether the surface serves: its contacts have the scene's friction.
+  bool OnSurface() const;
+  void SearchOne(const PackedReadings& packed);
+  void SearchPairs(const PackedReadings& packed, double least_force_N);
+  // Fits from the pairs of the frame before. Returns false, and keeps nothing,
+  // where only a search can tell what explains the frame: there are none, the
+  // contacts have jumped, or chi2 has risen.
+  bool Continue(double least_force_N);
+  // Fits from one start of the table, another one in every frame.
+  void TryNextPair(const PackedReadings& packed);
   // Rows of the profile need not reach beyond `most_chi2`.
-  void FindStarts(int contacts, const PackedReadings& packed,
-                  double most_chi2 = GaugeTable::kAnyChi2);
+  void FindStarts(const PackedReadings& packed, double most_chi2);
+  void FindPairStarts(const PackedReadings& packed);
   // Fits from the starts of a profile that reaches to `most_chi2`. Returns how
   // far it must reach; if that is farther, not all starts are tried.
-  double TryStarts(int contacts, const PackedReadings& packed, double most_chi2,
-                   double least_force_N);
+  double TryStarts(const PackedReadings& packed, double most_chi2);
+  // Says whether a start can still win or be a rival.
+  bool Matters(const ContactStart& start, double within_chi2) const;
   // Says whether the best pair is all that can be known of a frame.
   bool IsEnough(const PackedReadings& packed, double least_force_N) const;
   // Profiles the best pair, and fits from where its profile has other minima,
@@ -163,37 +161,24 @@ class ContactSearch {
   // Says whether the search may have missed a minimum within noise near a row
   // whose distance in std differs from a neighbour's by least_rise or more.
   bool Hides(std::size_t row, double least_rise) const;
-  // All fit from a start and fill in the next solution. Fit goes by the surface
-  // where it can, else by FitEquilibria.
+  // Fits from a start and keeps the solution, if there is room for one.
+  void TryFit(const ContactStart& start);
+  // Both fit from a start and fill in the next solution. Fit goes by the
+  // surface where it can.
   bool Fit(const ContactStart& start);
-  // With `known`, a solution is there already if it does not converge. Takes at
-  // most `most` iterations.
-  bool FitEquilibria(const ContactStart& start, int most, bool known = false);
-  bool FitByCeres(const ContactStart& start);
+  // With `known`, a solution is there already if it does not converge.
+  bool FitEquilibria(const ContactStart& start, int most_iterations,
+                     bool known = false);
 
-  Scene scene_;
-  double friction_, length_mm_;
-  EquilibriumSolver solver_;
-  std::shared_ptr<const SearchTables> tables_;
-  const GaugeTable& table_;
-  double most_force_N_;
-  FoundSolutions found_;
-  FrameMethod method_;
-  bool on_surface_ = false, exact_fit_ = false;  // this search
-  const Measurements* row_ = nullptr;
-  RowFit fit_;
-  std::optional<FrameProblem> problem_;         // if Ceres solves
-  std::vector<ContactStart> profile_, starts_;  // of one contact
-  std::vector<ContactStart> pair_starts_;
+  FoundSolutions found_, before_;  // in this frame, and pairs of the last one
   PairProfile pair_profile_;
-  ContactStart followed_;  // the contacts that the last frame left
-  LadderState followed_state_;
-  std::size_t turn_ = 0;      // of pair_starts_
-  double searched_chi2_ = 0;  // where following began
-  bool suspect_ = false;
-  int iterations_ = 0, most_iterations_ = 0;  // of this search
-  int spent_ = 0;                             // by all searches of the frame
-  bool ended_ = false;
+  std::shared_ptr<const SearchTables> tables_;
+  RowFit fit_;
+  std::optional<FrameProblem> problem_;  // if Ceres solves
+  IterationBudget budget_;
+  Course course_ = Course::kSearched;
+  std::vector<ContactStart> profile_, starts_;  // of one contact
+  std::vector<ContactStart> pair_starts_;       // still to try
 };
 
 }  // namespace finray

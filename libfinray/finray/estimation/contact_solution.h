@@ -2,6 +2,7 @@
 #define FINRAY_ESTIMATION_CONTACT_SOLUTION_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct ContactSolution {
   std::vector<double> rib_tension_N;
   /// The equilibrium. Fits on a surface leave it out.
   LadderState state;
+
+  /// The lesser force of two.
+  double LeastForce_N() const {
+    return std::min(contacts[0].normal_N, contacts[count - 1].normal_N);
+  }
 };
 
 }  // namespace finray

@@ -16,28 +16,52 @@ constexpr double kDistinct[] = {9.21, 13.28};
 // small the std.
 constexpr double kRounding = 1e-10;
 
+using ContactDifference =
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>;
+
+ContactDifference Apart(const ContactSolution& one,
+                        const ContactSolution& other) {
+  ContactDifference apart(2 * one.count);
+  for (int c = 0; c < one.count; ++c) {
+    apart[2 * c] = other.contacts[c].arc_mm - one.contacts[c].arc_mm;
+    apart[2 * c + 1] = other.contacts[c].normal_N - one.contacts[c].normal_N;
+  }
+  return apart;
+}
+
 }  // namespace
 
-FoundSolutions::FoundSolutions(double length_mm, double most_force_N,
-                               std::size_t ribs)
-    : length_mm_(length_mm), most_force_N_(most_force_N), solutions_(kMost) {
+FoundSolutions::FoundSolutions(const Finger& finger, double most_force_N)
+    : length_mm_(finger.front_length_mm),
+      most_force_N_(most_force_N),
+      solutions_(kMost) {
   for (ContactSolution& solution : solutions_) {
-    solution.rib_tension_N.resize(ribs);
+    solution.rib_tension_N.resize(finger.ribs.size());
   }
 }
 
-void FoundSolutions::Keep() {
-  ContactSolution& solution = next();
-  if (solution.count == 2 &&
-      solution.contacts[1].arc_mm < solution.contacts[0].arc_mm) {
-    std::swap(solution.contacts[0], solution.contacts[1]);
-    std::swap(solution.poses[0], solution.poses[1]);
-    const ContactMatrix was = solution.information;
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) {
-        solution.information(i, j) = was((i + 2) % 4, (j + 2) % 4);
-      }
+void FoundSolutions::Sort(ContactSolution* solution) const {
+  if (solution->count < 2 ||
+      solution->contacts[0].arc_mm <= solution->contacts[1].arc_mm) {
+    return;
+  }
+  std::swap(solution->contacts[0], solution->contacts[1]);
+  std::swap(solution->poses[0], solution->poses[1]);
+  const ContactMatrix was = solution->information;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      solution->information(i, j) = was((i + 2) % 4, (j + 2) % 4);
     }
+  }
+}
+
+bool FoundSolutions::Keep() {
+  ContactSolution& solution = next();
+  Sort(&solution);
+  for (int i = 0; i < count_; ++i) {
+    if (!IsSame(solutions_[i], solution)) continue;
+    if (solution.chi2 < solutions_[i].chi2) std::swap(solutions_[i], solution);
+    return false;
   }
   // A force on its bound is not credible and wins only where nothing else
   // explains the frame.
@@ -52,32 +76,34 @@ void FoundSolutions::Keep() {
       solution.contacts[0].normal_N < solutions_[best_].contacts[0].normal_N;
   if (empty() || more < -kTie || (more < kTie && lighter)) best_ = count_;
   ++count_;
+  return true;
 }
 
 double FoundSolutions::least_chi2() const {
   return empty() ? std::numeric_limits<double>::infinity() : best().chi2;
 }
 
-const ContactSolution* FoundSolutions::rival(double within) const {
+const ContactSolution* FoundSolutions::rival() const {
   const ContactSolution* rival = nullptr;
-  for (int i = 0; i < count_; ++i) {
-    const ContactSolution& other = solutions_[i];
-    if (i == best_ || other.chi2 > best().chi2 + within) continue;
-    if (HasMostForce(other) && !HasMostForce(best())) continue;
-    if (!IsDistinct(other)) continue;
+  for (const ContactSolution& other : *this) {
+    if (!IsRival(other, kWithinNoise)) continue;
     if (rival == nullptr || other.chi2 < rival->chi2) rival = &other;
   }
   return rival;
 }
 
+bool FoundSolutions::IsRival(const ContactSolution& other,
+                             double within) const {
+  if (&other == &best() || other.chi2 > best().chi2 + within) return false;
+  if (HasMostForce(other) && !HasMostForce(best())) return false;
+  return IsDistinct(other);
+}
+
 bool FoundSolutions::IsDistinct(const ContactSolution& other) const {
   const ContactSolution& one = best();
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1> apart(
-      2 * one.count);
+  const ContactDifference apart = Apart(one, other);
   bool rounding = true;
   for (int c = 0; c < one.count; ++c) {
-    apart[2 * c] = other.contacts[c].arc_mm - one.contacts[c].arc_mm;
-    apart[2 * c + 1] = other.contacts[c].normal_N - one.contacts[c].normal_N;
     rounding &=
         std::abs(apart[2 * c]) < kRounding * length_mm_ &&
         std::abs(apart[2 * c + 1]) < kRounding * one.contacts[c].normal_N;
@@ -98,28 +124,23 @@ bool FoundSolutions::Any(const Is& is) const {
   return std::any_of(solutions_.begin(), solutions_.begin() + count_, is);
 }
 
-bool FoundSolutions::KnowsNext() const {
-  const ContactSolution& next = solutions_[count_];
-  return Any([&](const ContactSolution& one) {
-    return IsNear(one, next.contacts[0], next.chi2);
-  });
-}
-
-bool FoundSolutions::Knows(const PointContact& contact, double chi2) const {
-  return Any([&](const ContactSolution& one) {
-    return !OnBound(one.contacts[0].arc_mm, one.contacts[0].normal_N) &&
-           IsNear(one, contact, chi2);
-  });
-}
-
-bool FoundSolutions::IsNear(const ContactSolution& one,
-                            const PointContact& contact, double chi2) const {
+bool FoundSolutions::IsSame(const ContactSolution& one,
+                            const ContactSolution& other) const {
   // At the clamp of the beam the information is zero, and every other solution
   // would be near.
-  if (chi2 < one.chi2 - kSame) return false;
-  const Eigen::Vector2d apart(contact.arc_mm - one.contacts[0].arc_mm,
-                              contact.normal_N - one.contacts[0].normal_N);
+  if (other.chi2 < one.chi2 - kSame || AnyOnBound(one) != AnyOnBound(other)) {
+    return false;
+  }
+  const ContactDifference apart = Apart(one, other);
   return apart.dot(one.information * apart) < kSame;
+}
+
+bool FoundSolutions::AnyOnBound(const ContactSolution& solution) const {
+  return std::any_of(solution.contacts.begin(),
+                     solution.contacts.begin() + solution.count,
+                     [this](const PointContact& contact) {
+                       return OnBound(contact.arc_mm, contact.normal_N);
+                     });
 }
 
 bool FoundSolutions::IsWithin(double distance_mm, double arc_mm) const {

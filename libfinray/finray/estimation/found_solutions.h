@@ -16,8 +16,8 @@ class FoundSolutions {
   /// than this, the 99 % quantile of chi-squared with two degrees of freedom.
   static constexpr double kWithinNoise = 9.21;
 
-  /// Forces end at `most_force_N`, places at `length_mm`.
-  FoundSolutions(double length_mm, double most_force_N, std::size_t ribs);
+  /// Forces end at `most_force_N`.
+  FoundSolutions(const Finger& finger, double most_force_N);
 
   void Clear() { count_ = 0; }
   bool empty() const { return count_ == 0; }
@@ -25,29 +25,27 @@ class FoundSolutions {
 
   /// Where the next solution is filled in before Keep. Not if full().
   ContactSolution& next() { return solutions_[count_]; }
-  /// Keeps the next solution, with its contacts sorted from base to tip.
-  void Keep();
+  /// Keeps the next solution, with its contacts sorted from base to tip. Of two
+  /// fits of one minimum the better one stays. Returns true if it is a new one.
+  bool Keep();
 
   /// A solution with a force on its bound is the best one only if nothing else
   /// explains the frame.
   const ContactSolution& best() const { return solutions_[best_]; }
-  /// The solutions that Keep has stored first and last.
-  const ContactSolution& first() const { return solutions_[0]; }
-  const ContactSolution& last() const { return solutions_[count_ - 1]; }
+  /// All, in the order in which Keep has stored them.
+  const ContactSolution* begin() const { return solutions_.data(); }
+  const ContactSolution* end() const { return begin() + count_; }
   /// Its chi2; infinite if there is none.
   double least_chi2() const;
   /// The best solution that is distinct from best() beyond its uncertainty and
-  /// explains the frame as well; null if there is none. `within` is the
-  /// difference of chi2 that this allows.
-  const ContactSolution* rival(double within = kWithinNoise) const;
+  /// explains the frame within kWithinNoise as well; null if there is none.
+  const ContactSolution* rival() const;
+  /// Says whether another solution is one with `within` instead of
+  /// kWithinNoise.
+  bool IsRival(const ContactSolution& other, double within) const;
 
   // For one contact.
 
-  /// Says whether the next solution is one that is kept.
-  bool KnowsNext() const;
-  /// Says whether a minimum at that contact, not yet fitted, is one that is
-  /// kept. Solutions on a bound know nothing of other places.
-  bool Knows(const PointContact& contact, double chi2) const;
   /// Says whether a solution lies within that distance of a place.
   bool IsWithin(double distance_mm, double arc_mm) const;
   /// The least chi2 that they expect of a contact at that place.
@@ -55,11 +53,14 @@ class FoundSolutions {
 
   /// Says whether a contact is at an end of the beam or at the largest force.
   bool OnBound(double arc_mm, double normal_N) const;
+  bool BestOnBound() const { return !empty() && AnyOnBound(best()); }
+  double most_force_N() const { return most_force_N_; }
 
  private:
-  // Says whether a contact with that chi2 is the minimum `one`.
-  bool IsNear(const ContactSolution& one, const PointContact& contact,
-              double chi2) const;
+  void Sort(ContactSolution* solution) const;
+  // Says whether two fits have led to one minimum, which `one` has found.
+  bool IsSame(const ContactSolution& one, const ContactSolution& other) const;
+  bool AnyOnBound(const ContactSolution& solution) const;
   bool HasMostForce(const ContactSolution& solution) const;
   bool IsDistinct(const ContactSolution& other) const;
   template <class Is>

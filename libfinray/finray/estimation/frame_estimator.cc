@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/estimation/free_frame.h"
+#include "finray/estimation/smoothing.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
@@ -19,20 +19,6 @@ void CopyContacts(const ContactSolution& from, ContactEstimates* to) {
     (*to)[c].normal_N = from.contacts[c].normal_N;
     (*to)[c].pose = from.poses[c];
   }
-}
-
-// The std of two contacts in a curved valley may be so many times those that
-// are allowed elsewhere.
-constexpr double kPairValley = 3;
-
-// The std of an unknown of two contacts without their valley.
-double LocalStd(const FrameEstimate& estimate, int k) {
-  const double noise =
-      estimate.noise_scale() * std::sqrt(estimate.noise_covariance(k, k));
-  return estimate.calibration_covariance.size() == 0
-             ? noise
-             : std::hypot(noise,
-                          std::sqrt(estimate.calibration_covariance(k, k)));
 }
 
 void CheckScene(const Finger& finger, const Scene& scene) {
@@ -67,35 +53,26 @@ void CheckScene(const Finger& finger, const Scene& scene) {
 FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
                                const Discretization& discretization,
                                FrameMethod method)
-    : finger_((CheckScene(finger, scene), finger)),
-      scene_(scene),
-      discretization_(discretization),
-      method_(method),
-      least_force_N_(LeastForce_N(finger)),
+    : setup_{(CheckScene(finger, scene), finger), scene, discretization,
+             method},
       search_(finger, scene, discretization, method),
       systematic_(finger, scene, discretization),
       free_(FreeEstimate(finger, discretization)) {
-  unsolved_.rib_tension_N.assign(free_.rib_tension_N.size(), kNaN);
   if (scene.gauge_offset_walk) {
-    offsets_.emplace(finger, *scene.gauge_offset_walk,
-                     search_.table().free_angles());
+    live_.offsets.emplace(finger, *scene.gauge_offset_walk,
+                          search_.table().free_angles());
   }
-  scene_.gauge_offset_walk.reset();
+  setup_.scene.gauge_offset_walk.reset();
 }
 
 FrameEstimator::FrameEstimator(const FrameEstimator& other)
-    : finger_(other.finger_),
-      scene_(other.scene_),
-      discretization_(other.discretization_),
-      method_(other.method_),
-      least_force_N_(other.least_force_N_),
-      search_(finger_, scene_, discretization_, method_,
+    : setup_(other.setup_),
+      search_(setup_.finger, setup_.scene, setup_.discretization, setup_.method,
               other.search_.tables()),
       systematic_(other.systematic_),
-      offsets_(other.offsets_),
-      free_(other.free_),
-      unsolved_(other.unsolved_) {
-  if (offsets_) offsets_->Restart();
+      free_(other.free_) {
+  live_.offsets = other.live_.offsets;
+  if (live_.offsets) live_.offsets->Restart();
 }
 
 std::unique_ptr<FrameEstimator> FrameEstimator::ForAnotherThread() const {
@@ -105,7 +82,7 @@ std::unique_ptr<FrameEstimator> FrameEstimator::ForAnotherThread() const {
 std::unique_ptr<FrameEstimator> FrameEstimator::WithErrorsOf(
     const ParameterCovariance& calibration) const {
   auto other = ForAnotherThread();
-  other->finger_.calibration = calibration;
+  other->setup_.finger.calibration = calibration;
   if (!other->systematic_.empty()) other->systematic_.SetErrors(calibration);
   return other;
 }
@@ -136,62 +113,138 @@ FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
 // Says whether the object's motion makes friction another than the scene's.
 bool FrameEstimator::Slides(const Measurements& readings) const {
   constexpr double kSame = 1e-3;  // of the coefficient
-  const double friction = scene_.friction_coefficient;
+  const double friction = setup_.scene.friction_coefficient;
   return std::abs(readings.FrictionOr(friction) - friction) >
          kSame * std::abs(friction);
 }
 
 // Friction that pulls the other way has tables of its own.
 FrameEstimate FrameEstimator::EstimateSliding(const Measurements& readings) {
-  const double friction = scene_.friction_coefficient;
+  const double friction = setup_.scene.friction_coefficient;
   FrameEstimator* way = this;
   if (readings.friction * friction < 0) {
     if (!reversed_) {
-      Scene scene = scene_;
+      Scene scene = setup_.scene;
       scene.friction_coefficient = -friction;
       reversed_ = std::make_unique<FrameEstimator>(
-          WithFrictionReversed(finger_), scene, discretization_, method_);
+          WithFrictionReversed(setup_.finger), scene, setup_.discretization,
+          setup_.method);
     }
     way = reversed_.get();
   }
   way->search_.set_friction(readings.friction);
   FrameEstimate estimate = way->EstimateAlone(readings);
   estimate.friction = readings.friction;
-  way->search_.set_friction(way->scene_.friction_coefficient);
+  way->search_.set_friction(way->setup_.scene.friction_coefficient);
   return estimate;
 }
 
 FrameEstimate FrameEstimator::EstimateAlone(const Measurements& readings) {
   FrameEstimate estimate;
   PackAll(&readings, 1);
-  LeaveLastFrame();
-  SearchAlone(readings, packed_[0], &estimate);
+  search_.Forget();
+  Explain(readings, packed_[0], &estimate);
+  search_.Forget();
   Judge(readings, packed_[0], &estimate);
   return estimate;
+}
+
+void FrameEstimator::EstimateBlock(const Measurements* readings,
+                                   std::size_t count,
+                                   FrameEstimate* estimates) {
+  PackAll(readings, count);
+  search_.Forget();
+  std::size_t searched = 0;  // all frames before are, or have one contact
+  for (std::size_t i = 0; i < count; ++i) {
+    if (Slides(readings[i])) {
+      search_.Forget();
+      searched = i + 1;
+      continue;
+    }
+    Explain(readings[i], packed_[i], &estimates[i]);
+    if (search_.course() == ContactSearch::Course::kContinued) continue;
+    if (search_.course() == ContactSearch::Course::kSurprised) {
+      for (; searched <= i; ++searched) {
+        search_.Forget();
+        Explain(readings[searched], packed_[searched], &estimates[searched]);
+      }
+    }
+    searched = i + 1;
+  }
+  if (setup_.scene.smoothing) {
+    SmoothBlock(readings, count, {}, estimates);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!Slides(readings[i])) Judge(readings[i], packed_[i], &estimates[i]);
+  }
+  // These use the memory of the packed frames.
+  for (std::size_t i = 0; i < count; ++i) {
+    if (Slides(readings[i])) estimates[i] = EstimateSliding(readings[i]);
+  }
+}
+
+const FrameEstimate& FrameEstimator::Next(const Measurements& readings) {
+  if (live_.offsets) {
+    NextAlone(live_.offsets->Correct(readings));
+    live_.offsets->Judge(&live_.estimate);
+  } else {
+    NextAlone(readings);
+  }
+  return live_.estimate;
+}
+
+void FrameEstimator::NextAlone(const Measurements& readings) {
+  if (Slides(readings)) {
+    search_.Forget();
+    live_.estimate = EstimateSliding(readings);
+    return;
+  }
+  PackAll(&readings, 1);
+  Explain(readings, packed_[0], &live_.estimate);
+  if (setup_.scene.smoothing) {
+    live_.smoothed = SmoothBlock(&readings, 1, live_.smoothed, &live_.estimate);
+  } else {
+    Judge(readings, packed_[0], &live_.estimate);
+  }
+}
+
+LogPrior FrameEstimator::SmoothBlock(const Measurements* readings,
+                                     std::size_t count, const LogPrior& before,
+                                     FrameEstimate* estimates) {
+  std::vector<char> sure(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    sure[i] =
+        StatusOf(estimates[i], setup_.finger, search_) == FrameStatus::kOk;
+  }
+  const LogPrior next =
+      Smooth(setup_.finger, setup_.scene, setup_.discretization, readings,
+             count, before, estimates, &sure);
+  for (std::size_t i = 0; i < count; ++i) {
+    Judge(readings[i], packed_[i], &estimates[i]);
+    if (estimates[i].contacts == 1 && !sure[i]) {
+      estimates[i].status = FrameStatus::kUnobservable;
+    }
+  }
+  return next;
 }
 
 void FrameEstimator::PackAll(const Measurements* readings, std::size_t count) {
   if (packed_.size() < count) packed_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    Pack(finger_, scene_, readings[i], &packed_[i]);
+    Pack(setup_.finger, setup_.scene, readings[i], &packed_[i]);
     packed_[i].free_chi2 = search_.FreeChi2(readings[i]);
   }
-}
-
-void FrameEstimator::SearchAlone(const Measurements& readings,
-                                 const PackedReadings& packed,
-                                 FrameEstimate* estimate) {
-  search_.Begin(readings);
-  Explain(readings, packed, estimate);
 }
 
 void FrameEstimator::Explain(const Measurements& readings,
                              const PackedReadings& packed,
                              FrameEstimate* estimate) {
-  const int contacts = scene_.contacts.value_or(1);
+  search_.Begin(readings);
+  const int contacts = setup_.scene.contacts.value_or(1);
   if (packed.gauges + packed.camera < 1 || packed.all < kUnknowns * contacts) {
     Unsolved(FrameStatus::kBadInput, estimate);
-  } else if (scene_.contacts) {
+  } else if (setup_.scene.contacts) {
     WithContacts(readings, packed, contacts, estimate);
   } else {
     Automatic(readings, packed, estimate);
@@ -224,17 +277,15 @@ void FrameEstimator::Automatic(const Measurements& readings,
   const double without =
       one ? search_.best().chi2 : packed.free_chi2 - kSignificance;
   const auto gauges = static_cast<std::size_t>(packed.gauges);
-  if (without < significance || scene_.MostContacts(gauges) < 2) return;
+  if (without < significance || setup_.scene.MostContacts(gauges) < 2) return;
   // Errors of the calibration bend the readings of one contact too. A second
   // one must explain more than they do.
   const double model_without = one ? ModelChi2(readings, packed) : without;
   if (model_without < significance) return;
   const int before = search_.iterations();
-  if (!Fit(2, packed)) return;
+  if (!search_.Search(2, packed, LeastForce_N(setup_.finger))) return;
   const ContactSolution& two = search_.best();
-  for (const PointContact& contact : two.contacts) {
-    if (contact.normal_N < least_force_N_) return;
-  }
+  if (two.LeastForce_N() < LeastForce_N(setup_.finger)) return;
   if (without - two.chi2 < significance) return;
   // Written so that a difference of infinities is none.
   if (one && !(model_without - ModelChi2(readings, packed) >= significance)) {
@@ -257,22 +308,14 @@ void FrameEstimator::WithContacts(const Measurements& readings,
                                   const PackedReadings& packed, int contacts,
                                   FrameEstimate* estimate) {
   if (contacts == 0) return Free(packed, estimate);
-  if (!Fit(contacts, packed)) {
+  if (!search_.Search(contacts, packed, LeastForce_N(setup_.finger))) {
     return Unsolved(FrameStatus::kNotConverged, estimate);
   }
   const ContactSolution& best = search_.best();
-  for (int c = 0; c < best.count; ++c) {
-    if (best.contacts[c].normal_N < least_force_N_) {
-      return WithContacts(readings, packed, contacts - 1, estimate);
-    }
+  if (best.LeastForce_N() < LeastForce_N(setup_.finger)) {
+    return WithContacts(readings, packed, contacts - 1, estimate);
   }
   Found(readings, packed, estimate);
-}
-
-bool FrameEstimator::Fit(int contacts, const PackedReadings& packed) {
-  return following_two_ && contacts == 2
-             ? search_.Follow(packed)
-             : search_.Search(contacts, packed, least_force_N_);
 }
 
 // Copies into the memory of the estimate: most frames of a log are free.
@@ -285,15 +328,19 @@ void FrameEstimator::Free(const PackedReadings& packed,
 
 void FrameEstimator::Unsolved(FrameStatus status,
                               FrameEstimate* estimate) const {
-  *estimate = unsolved_;
+  *estimate = free_;
   estimate->status = status;
+  estimate->contact[0].normal_N = kNaN;
+  estimate->tip_pose.setConstant(kNaN);
+  std::fill(estimate->rib_tension_N.begin(), estimate->rib_tension_N.end(),
+            kNaN);
 }
 
 void FrameEstimator::Found(const Measurements& readings,
                            const PackedReadings& packed, FrameEstimate* to) {
   const ContactSolution& best = search_.best();
   FrameEstimate& estimate = *to;
-  estimate = unsolved_;
+  Unsolved(FrameStatus::kNotConverged, to);
   estimate.contacts = best.count;
   CopyContacts(best, &estimate.contact);
   estimate.tip_pose = best.tip_pose;
@@ -314,7 +361,7 @@ void FrameEstimator::Found(const Measurements& readings,
     std = ProfiledStd(search_.profile(), best, std, scale, kTwoContactsRule);
   } else if (packed.camera == 0) {  // its points are not in the table
     estimate.valley = FindValley(search_.profile(), best, std, scale,
-                                 finger_.front_length_mm);
+                                 setup_.finger.front_length_mm);
     if (estimate.valley) {
       std[0] *= estimate.valley->arc_factor;
       std[1] *= estimate.valley->normal_factor;
@@ -336,88 +383,6 @@ void FrameEstimator::SetContacts(const FrameEstimate& estimate) {
     contacts_.push_back({estimate.contact[c].arc_mm,
                          estimate.contact[c].normal_N, search_.friction()});
   }
-}
-
-// Rare only for a finger that is well known: it solves an equilibrium.
-void FrameEstimator::ExplainByModelErrors(const Measurements& readings,
-                                          const PackedReadings& packed,
-                                          FrameEstimate* estimate) {
-  if (systematic_.empty() || packed.all > packed.gauges ||
-      !(estimate->p_value() < FrameEstimate::kUnexplained)) {
-    return;
-  }
-  SetContacts(*estimate);
-  estimate->model_chi2 = systematic_.Chi2(contacts_, readings);
-}
-
-void FrameEstimator::Judge(const Measurements& readings,
-                           const PackedReadings& packed,
-                           FrameEstimate* estimate) {
-  if (estimate->contacts == 0) {
-    if (estimate->status == FrameStatus::kNoContact) {
-      JudgeFree(readings, &systematic_, estimate);
-    }
-    return;
-  }
-  estimate->SetNoise();
-  if (!systematic_.empty()) {
-    SetContacts(*estimate);
-    estimate->calibration_covariance = systematic_.Of(contacts_, readings);
-    if (estimate->contacts == 1 &&
-        std::isfinite(estimate->calibration_covariance(0, 0))) {
-      estimate->force_std_N = std::hypot(
-          std::hypot(1, search_.friction()) * estimate->contact[0].normal_std_N,
-          std::sqrt(systematic_.whole_force_variance_N2()));
-    }
-    AddCovariance(estimate->calibration_covariance, estimate);
-  }
-  estimate->SetIntervals(finger_.front_length_mm);
-  estimate->status = StatusOf(*estimate, finger_, search_);
-  // Two contacts explain any reading of as many gauges as unknowns, so that
-  // nothing there says whether there are two.
-  if (!search_.IsDoubted(packed)) return;
-  const double chi2 = estimate->explained_chi2();
-  if (estimate->contacts == 2 || chi2 >= kDoubtedSignificance) {
-    estimate->status = FrameStatus::kUnobservable;
-  }
-  estimate->may_be_two = estimate->contacts == 1 && chi2 >= kSecondSignificance;
-}
-
-void FrameEstimator::AddCovariance(const ContactMatrix& covariance,
-                                   FrameEstimate* estimate) {
-  for (int c = 0; c < estimate->contacts; ++c) {
-    ContactEstimate& contact = estimate->contact[c];
-    contact.arc_std_mm =
-        std::hypot(contact.arc_std_mm, std::sqrt(covariance(2 * c, 2 * c)));
-    contact.normal_std_N = std::hypot(
-        contact.normal_std_N, std::sqrt(covariance(2 * c + 1, 2 * c + 1)));
-  }
-}
-
-FrameStatus FrameEstimator::StatusOf(const FrameEstimate& estimate,
-                                     const Finger& finger,
-                                     const ContactSearch& search) {
-  bool determined =
-      std::isnan(estimate.alternative_chi2) && !estimate.search_ended;
-  const bool pair = estimate.contacts == 2;
-  for (int c = 0; c < estimate.contacts; ++c) {
-    const ContactEstimate& contact = estimate.contact[c];
-    const auto is_sure = [&](double arc_std_mm, double normal_std_N) {
-      return arc_std_mm <= kLargestArcStd * finger.front_length_mm &&
-             normal_std_N <= kLargestForceStd * contact.normal_N;
-    };
-    determined &= !search.OnBound(contact.arc_mm, contact.normal_N);
-    if (!pair) {
-      determined &= is_sure(contact.arc_std_mm, contact.normal_std_N);
-      continue;
-    }
-    // Those of the minimum, and those of its valley.
-    determined &=
-        is_sure(LocalStd(estimate, 2 * c), LocalStd(estimate, 2 * c + 1)) &&
-        is_sure(contact.arc_std_mm / kPairValley,
-                contact.normal_std_N / kPairValley);
-  }
-  return determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
 }
 
 }  // namespace finray

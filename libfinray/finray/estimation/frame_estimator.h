@@ -39,10 +39,11 @@ namespace finray {
 /// - unobservable (Judge): solved, but the std of l_c is above kLargestArcStd
 ///   of l_0, the std of f_c is above kLargestForceStd of f_c (of two contacts
 ///   in a valley three times that), a bound is met, another solution is as
-///   good, or Scene::search_iteration_limit ended the search (search_ended). A
-///   frame without any solution by then is not_converged. A smoothed frame is
-///   unobservable too where neither it nor a frame of its part is sure alone
-///   (smoothing.h).
+///   good, nobody can tell whether there is a second contact
+///   (kUntoldSignificance), or Scene::search_iteration_limit ended the search
+///   (search_ended). A frame without any solution by then is not_converged. A
+///   smoothed frame is unobservable too where neither it nor a frame of its
+///   part is sure alone (smoothing.h).
 /// - ok (Judge): everything else.
 class FrameEstimator {
  public:
@@ -51,10 +52,14 @@ class FrameEstimator {
   /// A second contact can explain almost any reading, so it needs p = 1e-7.
   static constexpr double kSecondSignificance = 32.2;
   /// Two contacts explain any reading of as many gauges as unknowns, a small
-  /// error of the finger too. There a second contact must do so much: an error
-  /// of 3.3 std in each of four gauges, with their noise, leaves a smaller
-  /// chi2.
-  /// From there on nobody can tell whether there is a second one, found or not.
+  /// error of the finger too: nobody can tell whether there is a second one
+  /// where one contact leaves this chi2 or more. An error of 3.3 std in each of
+  /// four gauges, with their noise, leaves as much in one frame of twenty at
+  /// most.
+  static constexpr double kUntoldSignificance = 70;
+  /// A second contact is looked for there from this on, which such an error
+  /// leaves in no frame of a thousand: the search takes a hundred times as long
+  /// as a fit of one contact.
   static constexpr double kDoubtedSignificance = 100;
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLeastForce = 0.05;  ///< In units of EI / l_0^2.
@@ -91,9 +96,9 @@ class FrameEstimator {
 
   /// Estimates the next frame of a log. If the scene asks for smoothing, the
   /// frames before smooth it. Another explanation of two contacts that are
-  /// followed may be noticed up to twelve frames late, while EstimateBlock then
-  /// searches the frames before, too.
-  /// The result is good until the next call.
+  /// continued may be noticed up to twelve frames late, while EstimateBlock
+  /// then searches the frames before, too. The result is good until the next
+  /// call.
   const FrameEstimate& Next(const Measurements& readings);
   /// Makes what frames with the scene's friction would make when they first
   /// need it, so that none of them waits.
@@ -103,12 +108,12 @@ class FrameEstimator {
   }
   /// The next call of Next() starts a new log.
   void Restart() {
-    LeaveLastFrame();
-    followed_ = {};
-    if (offsets_) offsets_->Restart();
+    search_.Forget();
+    live_.smoothed = {};
+    if (live_.offsets) live_.offsets->Restart();
   }
 
-  const Finger& finger() const { return finger_; }
+  const Finger& finger() const { return setup_.finger; }
   /// No force of a contact is larger (Scene::force_max_N).
   double most_force_N() const { return search_.most_force_N(); }
 
@@ -136,19 +141,9 @@ class FrameEstimator {
   void NextAlone(const Measurements& readings);
   // Packs the readings and finds their chi2 without a contact.
   void PackAll(const Measurements* readings, std::size_t count);
-  void SearchAlone(const Measurements& readings, const PackedReadings& packed,
-                   FrameEstimate* estimate);
-  // The same, after search_.Begin().
+  // Explains the frame after the last one.
   void Explain(const Measurements& readings, const PackedReadings& packed,
                FrameEstimate* estimate);
-  // Explains the frame after the last one, and follows its two contacts if
-  // follows_two_. Returns false if it has to search.
-  bool SearchNext(const Measurements& readings, const PackedReadings& packed,
-                  FrameEstimate* estimate);
-  void LeaveLastFrame() {
-    follows_two_ = false;
-    doubtful_ = 0;
-  }
   // Smooths and judges frames of one log.
   LogPrior SmoothBlock(const Measurements* readings, std::size_t count,
                        const LogPrior& before, FrameEstimate* estimates);
@@ -157,8 +152,6 @@ class FrameEstimator {
   double ModelChi2(const Measurements& readings, const PackedReadings& packed);
   void WithContacts(const Measurements& readings, const PackedReadings& packed,
                     int contacts, FrameEstimate* estimate);
-  // Searches, or follows if following_two_.
-  bool Fit(int contacts, const PackedReadings& packed);
   void Free(const PackedReadings& packed, FrameEstimate* estimate) const;
   void Unsolved(FrameStatus status, FrameEstimate* estimate) const;
   // The best solution of the search as an estimate.
@@ -174,20 +167,26 @@ class FrameEstimator {
   void Judge(const Measurements& readings, const PackedReadings& packed,
              FrameEstimate* estimate);
 
-  Finger finger_;
-  Scene scene_;
-  Discretization discretization_;
-  FrameMethod method_;
-  double least_force_N_;
+  // What the estimator is made of.
+  struct Setup {
+    Finger finger;
+    Scene scene;  // without gauge_offset_walk
+    Discretization discretization;
+    FrameMethod method;
+  };
+  // Between frames that come one by one.
+  struct Live {
+    std::optional<LiveOffsets> offsets;  // where they wander
+    LogPrior smoothed;                   // if the scene has smoothing
+    FrameEstimate estimate;
+  };
+
+  Setup setup_;
   ContactSearch search_;
-  bool follows_two_ = false;    // the last frame left two contacts to follow
-  int doubtful_ = 0;            // so many of the next frames are searched
-  bool following_two_ = false;  // this frame
   CalibrationErrors systematic_;
   std::vector<PointContact> contacts_;
-  std::optional<LiveOffsets> offsets_;  // where they wander, for Next
-  LogPrior followed_;                   // by Next, if the scene has smoothing
-  FrameEstimate free_, unsolved_, next_;
+  FrameEstimate free_;
+  Live live_;
   std::unique_ptr<FrameEstimator> reversed_;  // made when needed
   std::vector<PackedReadings> packed_;        // of the frames under way
 };

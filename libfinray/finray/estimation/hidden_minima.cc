@@ -54,8 +54,8 @@ void ContactSearch::SearchRows(bool close) {
         next = i;
       }
     }
-    if (next == profile_.size() || !MayGoOn()) return;
-    if (Fit(profile_[next]) && !found_.KnowsNext()) found_.Keep();
+    if (next == profile_.size() || !budget_.MayGoOn()) return;
+    TryFit(profile_[next]);
     profile_[next].count = 0;  // tried
   }
 }
@@ -65,20 +65,20 @@ void ContactSearch::SearchBeside() {
   // found_.Keep() writes behind this one.
   const ContactSolution& from = found_.best();
   for (const double rows : {-1.0, -0.5, 0.5, 1.0}) {
-    if (found_.full() || !MayGoOn()) return;
+    if (found_.full() || !budget_.MayGoOn()) return;
     ContactStart start;
     start.count = 1;
     start.contacts[0] = from.contacts[0];
-    const double apart = rows * table_.row_spacing_mm();
+    const double apart = rows * table().row_spacing_mm();
     const ContactMatrix& a = from.information;
-    start.contacts[0].arc_mm =
-        std::clamp(from.contacts[0].arc_mm + apart, 0.0, length_mm_);
+    start.contacts[0].arc_mm = std::clamp(from.contacts[0].arc_mm + apart, 0.0,
+                                          finger().front_length_mm);
     start.contacts[0].normal_N =
         std::clamp(from.contacts[0].normal_N - a(0, 1) / a(1, 1) * apart, 0.0,
-                   most_force_N_);
-    start.state =
-        &table_.StateNear(start.contacts[0].arc_mm, start.contacts[0].normal_N);
-    if (Fit(start) && !found_.KnowsNext()) found_.Keep();
+                   most_force_N());
+    start.state = &table().StateNear(start.contacts[0].arc_mm,
+                                     start.contacts[0].normal_N);
+    TryFit(start);
   }
 }
 
@@ -86,9 +86,9 @@ void ContactSearch::SearchBeside() {
 void ContactSearch::SearchForces(const PackedReadings& packed) {
   const double arc_mm = best().contacts[0].arc_mm;
   for (std::size_t i = 0; i < profile_.size(); ++i) {
-    const GaugeTable::Row& row = table_.rows()[i];
+    const GaugeTable::Row& row = table().rows()[i];
     if (!IsLoaded(profile_[i]) ||
-        std::abs(row.arc_mm - arc_mm) > 2 * table_.row_spacing_mm()) {
+        std::abs(row.arc_mm - arc_mm) > 2 * table().row_spacing_mm()) {
       continue;
     }
     const auto chi2 = [&](std::size_t k) {
@@ -105,13 +105,13 @@ void ContactSearch::SearchForces(const PackedReadings& packed) {
       if (shown || chi2(k) > chi2(k - 1) || (!last && chi2(k) > chi2(k + 1))) {
         continue;
       }
-      if (found_.full() || !MayGoOn()) return;
+      if (found_.full() || !budget_.MayGoOn()) return;
       ContactStart start;
       start.count = 1;
       start.contacts[0] = {row.arc_mm, row.nodes[k].normal_N,
-                           scene_.friction_coefficient};
+                           table().friction()};
       start.state = &row.nodes[k].state;
-      if (Fit(start) && !found_.KnowsNext()) found_.Keep();
+      TryFit(start);
     }
   }
 }
@@ -119,7 +119,7 @@ void ContactSearch::SearchForces(const PackedReadings& packed) {
 // Another minimum may be nearer to a solution than the rows are to each other.
 bool ContactSearch::IsBeside(std::size_t i) const {
   return IsLoaded(profile_[i]) &&
-         found_.IsWithin(table_.row_spacing_mm(),
+         found_.IsWithin(table().row_spacing_mm(),
                          profile_[i].contacts[0].arc_mm);
 }
 

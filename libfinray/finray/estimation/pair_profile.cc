@@ -73,26 +73,25 @@ ProfiledRange ProfiledPart(const Finger& finger,
   return part;
 }
 
+}  // namespace
+
 // Walks with one contact held, from place to place.
-class PairWalk {
+class PairProfile::Walk {
  public:
-  PairWalk(const ContactSolution& solution, const PackedReadings& packed,
-           double friction, double most_force_N, int most_iterations,
-           EquilibriumSolver* solver, PairProfile* profile)
+  Walk(const ContactSolution& solution, const PackedReadings& packed,
+       double friction, int most_iterations, PairProfile* profile)
       : solution_(solution),
         packed_(packed),
-        most_force_N_(most_force_N),
         most_iterations_(most_iterations),
         profile_(*profile),
-        length_mm_(solver->model().finger().front_length_mm),
-        solver_(*solver),
-        gauges_(solver->model().gauges()),
+        length_mm_(profile->finger().front_length_mm),
+        solver_(profile->solver_),
         contacts_(solution.contacts.begin(), solution.contacts.end()) {
     for (PointContact& contact : contacts_) contact.friction = friction;
   }
 
-  void Walk(int contact, double end_mm, double variance_mm2,
-            std::vector<ContactStart>* places) {
+  void Go(int contact, double end_mm, double variance_mm2,
+          std::vector<ContactStart>* places) {
     const double begin = solution_.contacts[contact].arc_mm;
     const double way = end_mm - begin;
     if (std::abs(way) < 1e-6 * length_mm_) return;
@@ -130,25 +129,25 @@ class PairWalk {
 
  private:
   void Add(const ContactStart& start, const LadderState& state) {
-    if (profile_.count == PairProfile::kMostMinima) return;
-    ContactStart& added = profile_.minima[profile_.count];
-    LadderState& its = profile_.states[profile_.count];
+    if (profile_.count_ == kMostMinima) return;
+    ContactStart& added = profile_.minima_[profile_.count_];
+    LadderState& its = profile_.states_[profile_.count_];
     added = start;
     its = state;
     added.state = &its;
-    ++profile_.count;
+    ++profile_.count_;
   }
 
   // Residuals of the gauges and their slopes at the contacts.
   bool Linearize() {
-    profile_.ended |= profile_.iterations == most_iterations_;
-    if (profile_.ended) return false;
-    ++profile_.iterations;
+    profile_.ended_ |= profile_.iterations_ == most_iterations_;
+    if (profile_.ended_) return false;
+    ++profile_.iterations_;
     if (!solver_.SolveWithSensitivities(contacts_)) return false;
     normal_.setZero();
     gradient_.setZero();
     chi2_ = 0;
-    for (int j = 0; j < gauges_; ++j) {
+    for (int j = 0; j < solver_.model().gauges(); ++j) {
       const double weight = packed_.weights[j];
       if (weight == 0) continue;
       const double off = weight * (solver_.outputs()[j] - packed_.values[j]);
@@ -212,7 +211,7 @@ class PairWalk {
         at.normal_N = std::min(
             std::clamp(at.normal_N + change[2 * c + 1],
                        at.normal_N / kMostFactor, at.normal_N * kMostFactor),
-            most_force_N_);
+            profile_.most_force_N_);
       }
       moved = 0;
       if (!Linearize()) return false;
@@ -224,42 +223,36 @@ class PairWalk {
 
   const ContactSolution& solution_;
   const PackedReadings& packed_;
-  double most_force_N_;
   int most_iterations_;
   PairProfile& profile_;
   double length_mm_;
   LadderState lowest_;
   EquilibriumSolver& solver_;
-  int gauges_;
   std::vector<PointContact> contacts_;
   PairMatrix normal_;
   PairVector gradient_;
   double chi2_ = 0;
 };
 
-}  // namespace
-
-void ProfilePair(const ContactSolution& solution, const PackedReadings& packed,
-                 double friction, double most_force_N, int most_iterations,
-                 EquilibriumSolver* solver, PairProfile* profile,
-                 std::vector<ContactStart>* places) {
+void PairProfile::Profile(const ContactSolution& solution,
+                          const PackedReadings& packed, double friction,
+                          int most_iterations,
+                          std::vector<ContactStart>* places) {
   places->clear();
-  profile->count = profile->iterations = 0;
-  profile->ended = false;
+  count_ = iterations_ = 0;
+  ended_ = false;
   const ContactMatrix covariance = CovarianceOf(solution.information);
   if (!std::isfinite(covariance(0, 0))) return;
-  const Finger& finger = solver->model().finger();
-  PairWalk walk(solution, packed, friction, most_force_N, most_iterations,
-                solver, profile);
-  solver->set_near_only(true);
+  Walk walk(solution, packed, friction, most_iterations, this);
+  solver_.set_near_only(true);
   for (int c = 0; c < 2; ++c) {
-    const ProfiledRange part =
-        ProfiledPart(finger, solution, c, std::sqrt(covariance(2 * c, 2 * c)));
+    const ProfiledRange part = ProfiledPart(
+        finger(), solution, c, std::sqrt(covariance(2 * c, 2 * c)));
     for (const double end_mm : {part.high_mm, part.low_mm}) {
-      walk.Walk(c, end_mm, covariance(2 * c, 2 * c), places);
+      walk.Go(c, end_mm, covariance(2 * c, 2 * c), places);
     }
   }
-  solver->set_near_only(false);
+  solver_.set_near_only(false);
 }
 
 }  // namespace finray

@@ -9,8 +9,8 @@
 
 namespace finray {
 
-/// The profile of chi2 over the place of each of two contacts, with the other
-/// three unknowns refitted,
+/// Computes the profile of chi2 over the place of each of two contacts, with
+/// the other three unknowns refitted,
 ///
 ///   p_c(l) = min over the others of chi2,  l = l_1 or l_2.
 ///
@@ -19,27 +19,44 @@ namespace finray {
 /// coarse table of pairs tells. A contact near either end is profiled to that
 /// end, one whose std is large over a bay and more on either side, and others
 /// not at all: their minimum is alone in its bay.
-struct PairProfile {
-  /// Beginnings of fits: places where p has a minimum of its own.
-  static constexpr int kMostMinima = 8;
-  std::array<ContactStart, kMostMinima> minima;
-  std::array<LadderState, kMostMinima> states;  ///< Theirs.
-  int count = 0;
-  /// The number of equilibria.
-  int iterations = 0;
-  /// The bound of that number has ended the profile.
-  bool ended = false;
-};
+class PairProfile {
+ public:
+  /// `most_force_N` is the bound of the forces.
+  PairProfile(const EquilibriumSolver& solver, double most_force_N)
+      : solver_(solver), most_force_N_(most_force_N) {}
 
-/// Profiles a solution from its equilibrium. `places` get both contacts and
-/// chi2 of each place; the solver ends at any equilibrium, and looks for
-/// equilibria near the last one only. Each place takes one to four of them with
-/// their derivatives, all together at most `most_iterations`. `most_force_N` is
-/// the bound of the forces. Contacts do not pass each other.
-void ProfilePair(const ContactSolution& solution, const PackedReadings& packed,
-                 double friction, double most_force_N, int most_iterations,
-                 EquilibriumSolver* solver, PairProfile* profile,
-                 std::vector<ContactStart>* places);
+  /// Profiles a solution from its equilibrium. `places` get both contacts and
+  /// chi2 of each place. Each of them takes one to four equilibria with their
+  /// derivatives, all together at most `most_iterations`. Contacts do not pass
+  /// each other.
+  void Profile(const ContactSolution& solution, const PackedReadings& packed,
+               double friction, int most_iterations,
+               std::vector<ContactStart>* places);
+
+  // Of the last profile:
+
+  /// Beginnings of fits: places where p has a minimum of its own.
+  int count() const { return count_; }
+  const ContactStart& minimum(int i) const { return minima_[i]; }
+  /// The number of equilibria.
+  int iterations() const { return iterations_; }
+  /// The bound of that number has ended the profile.
+  bool ended() const { return ended_; }
+
+  const Finger& finger() const { return solver_.model().finger(); }
+  /// The solver of the finger, at any equilibrium.
+  EquilibriumSolver* solver() { return &solver_; }
+
+ private:
+  class Walk;
+  static constexpr int kMostMinima = 8;
+  EquilibriumSolver solver_;
+  double most_force_N_;
+  std::array<ContactStart, kMostMinima> minima_;
+  std::array<LadderState, kMostMinima> states_;  // theirs
+  int count_ = 0, iterations_ = 0;
+  bool ended_ = false;
+};
 
 }  // namespace finray
 

@@ -29,8 +29,10 @@ class RowFit {
 
   /// The friction of the contacts; the scene's at first.
   void set_friction(double friction) { frames_.set_friction(friction); }
+  double friction() const { return frames_.friction(); }
   /// Sets the row of the fits that follow. It must stay in place.
   void set_row(const Measurements& row) { row_ = &row; }
+  const Measurements& row() const { return *row_; }
 
   /// chi2 of a row without a contact; infinite if the finger has no
   /// equilibrium.

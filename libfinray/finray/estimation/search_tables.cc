@@ -8,7 +8,8 @@ namespace finray {
 SearchTables::SearchTables(const Scene& scene,
                            const Discretization& discretization,
                            EquilibriumSolver* solver)
-    : table_(solver, scene.friction_coefficient, MeasuredRadius(scene),
+    : scene_(scene),
+      table_(solver, scene.friction_coefficient, MeasuredRadius(scene),
              scene.force_max_N),
       surface_(RowFit::SurfaceFor(solver->model().finger(), scene,
                                   discretization, table_.heaviest_N())) {}

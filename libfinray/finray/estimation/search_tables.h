@@ -20,6 +20,7 @@ class SearchTables {
   SearchTables(const Scene& scene, const Discretization& discretization,
                EquilibriumSolver* solver);
 
+  const Scene& scene() const { return scene_; }
   const GaugeTable& table() const { return table_; }
   const ModelSurface& surface() const { return surface_; }
   /// The first call makes it with `solver`, which must be one of the same
@@ -27,6 +28,7 @@ class SearchTables {
   const PairTable& Pairs(EquilibriumSolver* solver) const;
 
  private:
+  Scene scene_;
   GaugeTable table_;
   ModelSurface surface_;
   mutable std::once_flag pairs_made_;
