@@ -29,6 +29,13 @@ ContactVector BySweeps(const ContactEquations& equations,
   return change;
 }
 
+ContactBounds Box(int unknowns) {
+  ContactBounds box{ContactVector::Zero(unknowns),
+                    ContactVector::Ones(unknowns)};
+  for (int k = 1; k < unknowns; k += 2) box.high[k] = kMostForce;
+  return box;
+}
+
 TEST(BoundedChangeTest, IsTheLeastInTheBox) {
   std::mt19937_64 generator(5);
   std::uniform_real_distribution<double> draw(0, 1);
@@ -49,11 +56,25 @@ TEST(BoundedChangeTest, IsTheLeastInTheBox) {
       x[k] = k % 2 == 0 ? draw(generator) : kMostForce * draw(generator);
     }
     const ContactVector expected = BySweeps(equations, x);
-    const ContactVector change = BoundedChange(equations, x, kMostForce, 0);
+    const ContactVector change = BoundedChange(equations, x, Box(unknowns), 0);
     EXPECT_LT((change - expected).norm(), 1e-6) << i;
     at_bounds += std::abs(change[0]) == kLongestMove;
   }
   EXPECT_GT(at_bounds, 10);
+}
+
+// The others are the least squares without the held component.
+TEST(BoundedChangeTest, EqualBoundsHold) {
+  ContactEquations equations;
+  equations.normal = Eigen::Matrix2d{{4, 1}, {1, 2}};
+  equations.gradient = Eigen::Vector2d(-0.1, -0.2);
+  equations.chi2 = 0;
+  const Eigen::Vector2d x(0.5, 1);
+  ContactBounds box = Box(2);
+  box.low[0] = box.high[0] = 0.5;
+  const ContactVector change = BoundedChange(equations, x, box, 0);
+  EXPECT_EQ(change[0], 0);
+  EXPECT_NEAR(change[1], 0.1, 1e-8);
 }
 
 // r = (x^2 + y, 2 y) / 10 - 1 in x and y: the secant B maps each step to the
@@ -94,7 +115,7 @@ TEST(BoundedChangeTest, OneBoundDoesNotTakeAnotherAlong) {
   equations.gradient = Eigen::Vector2d(1000, -1e-3);
   equations.chi2 = 0.3;
   const Eigen::Vector2d x(0.9999, kMostForce);
-  const ContactVector change = BoundedChange(equations, x, kMostForce, 0);
+  const ContactVector change = BoundedChange(equations, x, Box(2), 0);
   EXPECT_EQ(change[1], 0);
   EXPECT_NEAR(change[0], -1000 / 2e7, 1e-9);
 }

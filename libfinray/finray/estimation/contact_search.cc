@@ -72,13 +72,11 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
                              const Discretization& discretization,
                              FrameMethod method,
                              std::shared_ptr<const SearchTables> tables)
-    : found_(finger,
-             scene.force_max_N.value_or(GaugeTable::HeaviestForce_N(finger))),
+    : tables_(tables ? std::move(tables)
+                     : std::make_shared<const SearchTables>(finger, scene,
+                                                            discretization)),
+      found_(finger, scene.force_max_N.value_or(table().heaviest_N())),
       before_(found_),
-      pair_profile_(EquilibriumSolver(finger, discretization), most_force_N()),
-      tables_(tables ? std::move(tables)
-                     : std::make_shared<const SearchTables>(
-                           scene, discretization, pair_profile_.solver())),
       fit_(finger, scene, discretization, &tables_->surface(), most_force_N()),
       budget_(scene.search_iteration_limit) {
   if (method != FrameMethod::kFast) {
@@ -92,8 +90,8 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
 
 void ContactSearch::Prepare() {
   if (!problem_) tables_->surface().MakeAll();
-  if (tables_->scene().MostContacts(finger().gauges.size()) == 2) {
-    tables_->Pairs(pair_profile_.solver());
+  if (tables_->scene().MostContacts(tables_->finger().gauges.size()) == 2) {
+    tables_->Pairs();
   }
 }
 
@@ -150,7 +148,7 @@ void ContactSearch::SearchOne(const PackedReadings& packed) {
   // With as many readings as unknowns, every minimum has a chi2 of zero,
   // however far the table's nodes are from it. Then chi2 cannot tell which
   // minimum is right, and all starts are tried.
-  const bool always_close = dof < 1 || HasCloseMinima(finger());
+  const bool always_close = dof < 1 || HasCloseMinima(tables_->finger());
   bool close = always_close;
   budget_.BeginSearch();
   // Fits on the surface cost less than the profile of all rows. With a limit no
@@ -219,7 +217,7 @@ void ContactSearch::SearchPairs(const PackedReadings& packed,
     }
     pair_starts_.clear();
   }
-  if (!found_.empty() && packed.camera == 0 && !doubted) ProfileBest(packed);
+  if (!found_.empty() && !doubted) ProfileBest();
   if (!continued) return;
   const bool surprised = std::any_of(
       found_.begin() + known, found_.end(), [&](const ContactSolution& other) {
@@ -305,7 +303,7 @@ void ContactSearch::FindStarts(const PackedReadings& packed, double most_chi2) {
 }
 
 void ContactSearch::FindPairStarts(const PackedReadings& packed) {
-  const PairTable& pairs = tables_->Pairs(pair_profile_.solver());
+  const PairTable& pairs = tables_->Pairs();
   if (!packed.weights.isZero(0)) {
     pairs.FindStarts(packed.values, packed.weights, kMostPairStarts,
                      &pair_starts_);
@@ -359,10 +357,9 @@ bool ContactSearch::FitEquilibria(const ContactStart& start,
   return converged;
 }
 
-void ContactSearch::ProfileBest(const PackedReadings& packed) {
+void ContactSearch::ProfileBest() {
   for (int round = 0; round < kMostProfiles && budget_.MayGoOn(); ++round) {
-    pair_profile_.Profile(best(), packed, friction(), budget_.left_of_frame(),
-                          &profile_);
+    pair_profile_.Profile(best(), budget_.left_of_frame(), &fit_, &profile_);
     budget_.Spend(pair_profile_.iterations(), !pair_profile_.ended());
     const double before = found_.least_chi2();
     for (int i = 0; i < pair_profile_.count(); ++i) {

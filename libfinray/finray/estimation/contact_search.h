@@ -122,7 +122,6 @@ class ContactSearch {
   double most_force_N() const { return found_.most_force_N(); }
 
  private:
-  const Finger& finger() const { return pair_profile_.finger(); }
   // Says whether the surface serves: its contacts have the scene's friction.
   bool OnSurface() const;
   void SearchOne(const PackedReadings& packed);
@@ -146,7 +145,7 @@ class ContactSearch {
   // Profiles the best pair, and fits from where its profile has other minima,
   // until they lead to no better one. The profile is then that of the best
   // pair.
-  void ProfileBest(const PackedReadings& packed);
+  void ProfileBest();
   // Fits from rows of the table that the solutions found do not account for:
   // from all of them where minima are `close`, else from those beside which
   // chi2 changes too sharply for the table to show a minimum between rows.
@@ -170,15 +169,15 @@ class ContactSearch {
   bool FitEquilibria(const ContactStart& start, int most_iterations,
                      bool known = false);
 
-  FoundSolutions found_, before_;  // in this frame, and pairs of the last one
-  PairProfile pair_profile_;
   std::shared_ptr<const SearchTables> tables_;
+  FoundSolutions found_, before_;  // in this frame, and pairs of the last one
   RowFit fit_;
   std::optional<FrameProblem> problem_;  // if Ceres solves
   IterationBudget budget_;
   Course course_ = Course::kSearched;
   std::vector<ContactStart> profile_, starts_;  // of one contact
   std::vector<ContactStart> pair_starts_;       // still to try
+  PairProfile pair_profile_;
 };
 
 }  // namespace finray

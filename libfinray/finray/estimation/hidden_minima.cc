@@ -72,7 +72,7 @@ void ContactSearch::SearchBeside() {
     const double apart = rows * table().row_spacing_mm();
     const ContactMatrix& a = from.information;
     start.contacts[0].arc_mm = std::clamp(from.contacts[0].arc_mm + apart, 0.0,
-                                          finger().front_length_mm);
+                                          tables_->finger().front_length_mm);
     start.contacts[0].normal_N =
         std::clamp(from.contacts[0].normal_N - a(0, 1) / a(1, 1) * apart, 0.0,
                    most_force_N());

@@ -26,8 +26,8 @@ constexpr double kProfiledBay = 0.12;
 // A place is as good as fitted when its next change would lower chi2 by less.
 constexpr double kPlaceFitted = 0.1;
 constexpr int kMostRefits = 4;
-// Forces change by this factor at most in one step, and places by this length.
-constexpr double kMostFactor = 3, kLongestRefit = 0.1;
+// Forces change by this factor at most from place to place.
+constexpr double kMostFactor = 3;
 // A minimum is suspected to have another one beside it where chi2 rises by less
 // than this share of what its curvature expects, farther away than kBeside
 // expects and by less than kBesideChi2: it may fall between two places.
@@ -78,17 +78,13 @@ ProfiledRange ProfiledPart(const Finger& finger,
 // Walks with one contact held, from place to place.
 class PairProfile::Walk {
  public:
-  Walk(const ContactSolution& solution, const PackedReadings& packed,
-       double friction, int most_iterations, PairProfile* profile)
+  Walk(const ContactSolution& solution, int most_iterations, RowFit* fit,
+       PairProfile* profile)
       : solution_(solution),
-        packed_(packed),
         most_iterations_(most_iterations),
+        fit_(*fit),
         profile_(*profile),
-        length_mm_(profile->finger().front_length_mm),
-        solver_(profile->solver_),
-        contacts_(solution.contacts.begin(), solution.contacts.end()) {
-    for (PointContact& contact : contacts_) contact.friction = friction;
-  }
+        length_mm_(fit->finger().front_length_mm) {}
 
   void Go(int contact, double end_mm, double variance_mm2,
           std::vector<ContactStart>* places) {
@@ -97,16 +93,13 @@ class PairProfile::Walk {
     if (std::abs(way) < 1e-6 * length_mm_) return;
     const int steps = static_cast<int>(
         std::ceil(std::abs(way) / (kProfileStep * length_mm_)));
-    for (int c = 0; c < 2; ++c) {
-      contacts_[c].arc_mm = solution_.contacts[c].arc_mm;
-      contacts_[c].normal_N = solution_.contacts[c].normal_N;
-    }
-    solver_.set_state(solution_.state);
-    if (!Linearize()) return;
-    double before = solution_.chi2;
-    bool falling = false;
     ContactStart place;
     place.count = 2;
+    place.contacts = solution_.contacts;
+    place.state = &solution_.state;
+    information_ = solution_.information;
+    double before = solution_.chi2;
+    bool falling = false;
     for (int i = 1; i <= steps; ++i) {
       const ContactStart last = place;
       if (!Refit(contact, begin + way * i / steps, &place)) break;
@@ -119,7 +112,7 @@ class PairProfile::Walk {
       const bool flat = !falls && more < kBetterBeside * expected &&
                         expected > kBeside &&
                         more < kBesideChi2 + solution_.chi2;
-      if (falls || flat) solver_.SaveState(&lowest_);
+      if (falls || flat) lowest_ = state_;
       if (flat || (falls && i == steps)) Add(place, lowest_);
       falling = falls;
       before = place.chi2;
@@ -138,38 +131,15 @@ class PairProfile::Walk {
     ++profile_.count_;
   }
 
-  // Residuals of the gauges and their slopes at the contacts.
-  bool Linearize() {
-    profile_.ended_ |= profile_.iterations_ == most_iterations_;
-    if (profile_.ended_) return false;
-    ++profile_.iterations_;
-    if (!solver_.SolveWithSensitivities(contacts_)) return false;
-    normal_.setZero();
-    gradient_.setZero();
-    chi2_ = 0;
-    for (int j = 0; j < solver_.model().gauges(); ++j) {
-      const double weight = packed_.weights[j];
-      if (weight == 0) continue;
-      const double off = weight * (solver_.outputs()[j] - packed_.values[j]);
-      const PairVector slope =
-          weight *
-          solver_.d_outputs().block<1, kPairUnknowns>(j, 0).transpose();
-      normal_.noalias() += slope * slope.transpose();
-      gradient_ += off * slope;
-      chi2_ += off * off;
-    }
-    return std::isfinite(chi2_);
-  }
-
-  // The change of the others for a change of the held one.
-  PairVector Change(int held, double moved) const {
-    PairMatrix system = normal_;
-    PairVector right = -gradient_ - normal_.col(held) * moved;
+  // Where the others go from a place where they are fitted when the held one
+  // moves, to first order.
+  PairVector Change(const ContactStart& place, int held, double moved) const {
+    PairMatrix system = information_;
+    PairVector right = -information_.col(held) * moved;
     for (int k = 0; k < kPairUnknowns; ++k) {
-      if (k == held) continue;
       // Keeps what the gauges do not determine where it is.
       const double size =
-          k % 2 == 0 ? 0.2 * length_mm_ : 2 * contacts_[k / 2].normal_N;
+          k % 2 == 0 ? 0.2 * length_mm_ : 2 * place.contacts[k / 2].normal_N;
       system(k, k) += 1 / (size * size);
     }
     system.row(held).setZero();
@@ -181,78 +151,65 @@ class PairProfile::Walk {
 
   // Goes to a place and fits the others there.
   bool Refit(int contact, double to_mm, ContactStart* place) {
-    const int held = 2 * contact;
-    double moved = to_mm - contacts_[contact].arc_mm;
-    for (int refit = 0; refit < kMostRefits; ++refit) {
-      const PairVector change = Change(held, moved);
-      if (!change.allFinite()) return false;
-      if (refit > 0) {
-        // chi2 at the end of the next change, to first order.
-        const double lower = -gradient_.dot(change);
-        if (lower < kPlaceFitted) {
-          chi2_ = std::max(0.0, chi2_ - lower);
-          break;
-        }
-      }
-      for (int c = 0; c < 2; ++c) {
-        PointContact& at = contacts_[c];
-        if (c == contact) {
-          at.arc_mm = to_mm;
-        } else {
-          // Its bounds keep it on its side of the other one.
-          const double longest = kLongestRefit * length_mm_,
-                       apart = kApart * length_mm_;
-          at.arc_mm += std::clamp(change[2 * c], -longest, longest);
-          at.arc_mm = c == 0 ? std::min(at.arc_mm, to_mm - apart)
-                             : std::max(at.arc_mm, to_mm + apart);
-          at.arc_mm =
-              std::clamp(at.arc_mm, kClamp * length_mm_ / 2, length_mm_);
-        }
-        at.normal_N = std::min(
-            std::clamp(at.normal_N + change[2 * c + 1],
-                       at.normal_N / kMostFactor, at.normal_N * kMostFactor),
-            profile_.most_force_N_);
-      }
-      moved = 0;
-      if (!Linearize()) return false;
+    profile_.ended_ |= profile_.iterations_ >= most_iterations_;
+    if (profile_.ended_) return false;
+    const int held = 2 * contact, other = 2 - held;
+    const double apart = kApart * length_mm_;
+    ContactBounds bounds = fit_.Bounds(kFittedContacts);
+    bounds.low[other] = contact == 0 ? to_mm + apart : kClamp / 2 * length_mm_;
+    if (contact == 1) bounds.high[other] = to_mm - apart;
+    bounds.low[other] = std::min(bounds.low[other], bounds.high[other]);
+    const PairVector change =
+        Change(*place, held, to_mm - place->contacts[contact].arc_mm);
+    if (!change.allFinite()) return false;
+    for (int c = 0; c < kFittedContacts; ++c) {
+      PointContact& at = place->contacts[c];
+      at.arc_mm = std::clamp(at.arc_mm + change[2 * c], bounds.low[2 * c],
+                             bounds.high[2 * c]);
+      at.normal_N = std::min(
+          std::clamp(at.normal_N + change[2 * c + 1], at.normal_N / kMostFactor,
+                     at.normal_N * kMostFactor),
+          bounds.high[2 * c + 1]);
     }
-    for (int c = 0; c < 2; ++c) place->contacts[c] = contacts_[c];
-    place->chi2 = chi2_;
+    place->contacts[contact].arc_mm = bounds.low[held] = bounds.high[held] =
+        to_mm;
+    const int most =
+        std::min(kMostRefits, most_iterations_ - profile_.iterations_);
+    const bool fitted = fit_.FitWithin(bounds, kPlaceFitted, most, place);
+    profile_.iterations_ += fit_.evaluations();
+    profile_.ended_ |= most < kMostRefits && !fit_.converged();
+    if (!fitted || profile_.ended_) return false;
+    information_ = fit_.information();
+    state_ = fit_.state();
+    place->state = &state_;
     return true;
   }
 
   const ContactSolution& solution_;
-  const PackedReadings& packed_;
   int most_iterations_;
+  RowFit& fit_;
   PairProfile& profile_;
   double length_mm_;
-  LadderState lowest_;
-  EquilibriumSolver& solver_;
-  std::vector<PointContact> contacts_;
-  PairMatrix normal_;
-  PairVector gradient_;
-  double chi2_ = 0;
+  // At the last place, and at the lowest one.
+  ContactMatrix information_;
+  LadderState state_, lowest_;
 };
 
-void PairProfile::Profile(const ContactSolution& solution,
-                          const PackedReadings& packed, double friction,
-                          int most_iterations,
-                          std::vector<ContactStart>* places) {
+void PairProfile::Profile(const ContactSolution& solution, int most_iterations,
+                          RowFit* fit, std::vector<ContactStart>* places) {
   places->clear();
   count_ = iterations_ = 0;
   ended_ = false;
   const ContactMatrix covariance = CovarianceOf(solution.information);
   if (!std::isfinite(covariance(0, 0))) return;
-  Walk walk(solution, packed, friction, most_iterations, this);
-  solver_.set_near_only(true);
-  for (int c = 0; c < 2; ++c) {
+  Walk walk(solution, most_iterations, fit, this);
+  for (int c = 0; c < kFittedContacts; ++c) {
     const ProfiledRange part = ProfiledPart(
-        finger(), solution, c, std::sqrt(covariance(2 * c, 2 * c)));
+        fit->finger(), solution, c, std::sqrt(covariance(2 * c, 2 * c)));
     for (const double end_mm : {part.high_mm, part.low_mm}) {
       walk.Go(c, end_mm, covariance(2 * c, 2 * c), places);
     }
   }
-  solver_.set_near_only(false);
 }
 
 }  // namespace finray

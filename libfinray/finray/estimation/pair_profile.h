@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "finray/estimation/contact_solution.h"
-#include "finray/estimation/packed_readings.h"
+#include "finray/estimation/row_fit.h"
 
 namespace finray {
 
@@ -21,17 +21,12 @@ namespace finray {
 /// not at all: their minimum is alone in its bay.
 class PairProfile {
  public:
-  /// `most_force_N` is the bound of the forces.
-  PairProfile(const EquilibriumSolver& solver, double most_force_N)
-      : solver_(solver), most_force_N_(most_force_N) {}
-
-  /// Profiles a solution from its equilibrium. `places` get both contacts and
-  /// chi2 of each place. Each of them takes one to four equilibria with their
-  /// derivatives, all together at most `most_iterations`. Contacts do not pass
-  /// each other.
-  void Profile(const ContactSolution& solution, const PackedReadings& packed,
-               double friction, int most_iterations,
-               std::vector<ContactStart>* places);
+  /// Profiles a solution for the row of `fit`, from its equilibrium. `places`
+  /// get both contacts and chi2 of each place. Each of them takes one to four
+  /// equilibria with their derivatives, all together at most `most_iterations`.
+  /// Contacts do not pass each other.
+  void Profile(const ContactSolution& solution, int most_iterations,
+               RowFit* fit, std::vector<ContactStart>* places);
 
   // Of the last profile:
 
@@ -43,15 +38,9 @@ class PairProfile {
   /// The bound of that number has ended the profile.
   bool ended() const { return ended_; }
 
-  const Finger& finger() const { return solver_.model().finger(); }
-  /// The solver of the finger, at any equilibrium.
-  EquilibriumSolver* solver() { return &solver_; }
-
  private:
   class Walk;
   static constexpr int kMostMinima = 8;
-  EquilibriumSolver solver_;
-  double most_force_N_;
   std::array<ContactStart, kMostMinima> minima_;
   std::array<LadderState, kMostMinima> states_;  // theirs
   int count_ = 0, iterations_ = 0;

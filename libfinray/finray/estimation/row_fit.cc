@@ -120,6 +120,29 @@ bool RowFit::Fit(const ContactStart& start, Model model, int most_evaluations,
   return fitted && fit.converged() && Read(start, frame, fit, solution);
 }
 
+bool RowFit::FitWithin(const ContactBounds& bounds, double small_decrease,
+                       int most_evaluations, ContactStart* start) {
+  FrameFit::Frame frame =
+      frames_.Of(*row_, start->contacts.data(), start->count);
+  frame.bounds = &bounds;
+  start_ = start->state;
+  evaluation_ = frame.evaluation;
+  on_equilibria_.solver().set_tolerance(tolerance_);
+  FrameFit::Ending ending;
+  ending.small_decrease = 0.5 * small_decrease;  // of chi2 / 2
+  ending.most_evaluations = most_evaluations;
+  ending.takes_last_step = true;
+  const bool fitted = on_equilibria_.Fit(frame, from_start_, &at_, ending);
+  evaluations_ = on_equilibria_.evaluations();
+  if (!fitted) return false;
+  for (int c = 0; c < start->count; ++c) {
+    start->contacts[c].arc_mm = frame.contacts[2 * c];
+    start->contacts[c].normal_N = frame.contacts[2 * c + 1];
+  }
+  start->chi2 = 2 * at_.cost;
+  return true;
+}
+
 bool RowFit::FitFrom(const std::vector<PointContact>& contacts,
                      EquilibriumSolver* solver, ContactSolution* solution) {
   if (!solver->Solve(contacts)) return false;

@@ -30,6 +30,11 @@ class RowFit {
   /// The friction of the contacts; the scene's at first.
   void set_friction(double friction) { frames_.set_friction(friction); }
   double friction() const { return frames_.friction(); }
+  const Finger& finger() const { return frames_.solver().model().finger(); }
+  /// The bounds of so many contacts, in mm and N.
+  ContactBounds Bounds(int contacts) const {
+    return on_equilibria_.Bounds(2 * contacts);
+  }
   /// Sets the row of the fits that follow. It must stay in place.
   void set_row(const Measurements& row) { row_ = &row; }
   const Measurements& row() const { return *row_; }
@@ -53,6 +58,17 @@ class RowFit {
   /// Minimises chi2 in equilibrium from contacts that are close.
   bool FitFrom(const std::vector<PointContact>& contacts,
                EquilibriumSolver* solver, ContactSolution* solution);
+  /// Minimises chi2 in equilibrium within narrower bounds, in mm and N, from
+  /// contacts within. The fit ends where another step would lower chi2 by less
+  /// than `small_decrease`, or after `most_evaluations`. Fills in contacts and
+  /// chi2. Returns false if there is no equilibrium near the start.
+  bool FitWithin(const ContactBounds& bounds, double small_decrease,
+                 int most_evaluations, ContactStart* start);
+  // Of the last FitWithin, at its last evaluation, and whether a further step
+  // would have lowered chi2 by less:
+  bool converged() const { return on_equilibria_.converged(); }
+  ContactMatrix information() const { return at_.Information(); }
+  const LadderState& state() const { return evaluation_->state(); }
   /// Evaluations of the model by the last fit.
   int evaluations() const { return evaluations_; }
 
@@ -67,6 +83,7 @@ class RowFit {
   FrameFit on_surface_, on_equilibria_;
   const Measurements* row_ = nullptr;
   LinearizedFrame at_;
+  const FrameEvaluation* evaluation_ = nullptr;  // of the last FitWithin
   const LadderState* start_ = nullptr;
   FrameFit::StartState from_start_;
   int evaluations_ = 0;

@@ -5,18 +5,18 @@
 
 namespace finray {
 
-SearchTables::SearchTables(const Scene& scene,
-                           const Discretization& discretization,
-                           EquilibriumSolver* solver)
+SearchTables::SearchTables(const Finger& finger, const Scene& scene,
+                           const Discretization& discretization)
     : scene_(scene),
-      table_(solver, scene.friction_coefficient, MeasuredRadius(scene),
+      solver_(finger, discretization),
+      table_(&solver_, scene.friction_coefficient, MeasuredRadius(scene),
              scene.force_max_N),
-      surface_(RowFit::SurfaceFor(solver->model().finger(), scene,
-                                  discretization, table_.heaviest_N())) {}
+      surface_(RowFit::SurfaceFor(finger, scene, discretization,
+                                  table_.heaviest_N())) {}
 
-const PairTable& SearchTables::Pairs(EquilibriumSolver* solver) const {
+const PairTable& SearchTables::Pairs() const {
   std::call_once(pairs_made_, [&] {
-    pairs_ = std::make_unique<const PairTable>(solver, table_.friction());
+    pairs_ = std::make_unique<const PairTable>(&solver_, table_.friction());
   });
   return *pairs_;
 }

@@ -15,20 +15,20 @@ namespace finray {
 /// take some milliseconds to make, and the searches of all threads share them.
 class SearchTables {
  public:
-  /// Afterwards `solver` is as after Reset(). Throws InputError for a finger
-  /// without an unloaded equilibrium.
-  SearchTables(const Scene& scene, const Discretization& discretization,
-               EquilibriumSolver* solver);
+  /// Throws InputError for a finger without an unloaded equilibrium.
+  SearchTables(const Finger& finger, const Scene& scene,
+               const Discretization& discretization);
 
+  const Finger& finger() const { return solver_.model().finger(); }
   const Scene& scene() const { return scene_; }
   const GaugeTable& table() const { return table_; }
   const ModelSurface& surface() const { return surface_; }
-  /// The first call makes it with `solver`, which must be one of the same
-  /// finger; other threads wait. Afterwards `solver` is as after Reset().
-  const PairTable& Pairs(EquilibriumSolver* solver) const;
+  /// The first call makes it; other threads wait.
+  const PairTable& Pairs() const;
 
  private:
   Scene scene_;
+  mutable EquilibriumSolver solver_;  // makes the tables
   GaugeTable table_;
   ModelSurface surface_;
   mutable std::once_flag pairs_made_;

@@ -96,18 +96,19 @@ void UpdateCurvature(const ContactVector& step, const ContactVector& before,
 // the least squares of the free components until the first of them meets its
 // bound, and lets a bound go that the gradient leaves.
 ContactVector BoundedChange(const ContactEquations& equations,
-                            const ContactVector& x, double most_force,
+                            const ContactVector& x, const ContactBounds& bounds,
                             double damping) {
   const int unknowns = static_cast<int>(x.size());
   const ContactMatrix system = Damped(equations, damping);
   ContactVector change = ContactVector::Zero(unknowns);
-  ContactVector low(unknowns), high(unknowns);
+  ContactVector low = bounds.low - x, high = bounds.high - x;
+  bool fixed[2 * kFittedContacts] = {}, held[2 * kFittedContacts] = {};
   for (int k = 0; k < unknowns; ++k) {
-    const bool arc = k % 2 == 0;
-    low[k] = arc ? std::max(-x[k], -kLongestMove) : -x[k];
-    high[k] = arc ? std::min(1 - x[k], kLongestMove) : most_force - x[k];
+    held[k] = fixed[k] = bounds.low[k] == bounds.high[k];
+    if (k % 2 != 0) continue;
+    low[k] = std::max(low[k], -kLongestMove);
+    high[k] = std::min(high[k], kLongestMove);
   }
-  bool fixed[2 * kFittedContacts] = {};
   for (int pass = 0; pass < kMostPasses * unknowns; ++pass) {
     ContactMatrix free = system;
     ContactVector target = -equations.gradient;
@@ -142,7 +143,8 @@ ContactVector BoundedChange(const ContactEquations& equations,
     const ContactVector slope = equations.gradient + system * change;
     int left = -1;
     for (int k = 0; k < unknowns; ++k) {
-      if (fixed[k] && (change[k] == low[k] ? slope[k] < 0 : slope[k] > 0)) {
+      if (fixed[k] && !held[k] &&
+          (change[k] == low[k] ? slope[k] < 0 : slope[k] > 0)) {
         left = k;
       }
     }

@@ -13,8 +13,7 @@ namespace finray {
 //   (A + B + D) dx = -g,    A = S' S,  g = S' r,
 //
 // with r the whitened residuals, S their slopes, B = sum_j r_j d2r_j/dx2 where
-// it is known, and D a damping, within 0 <= l_c <= l_0 and 0 <= f_c <= its
-// bound.
+// it is known, and D a damping, within bounds of l_c and f_c.
 
 using ContactVector =
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>;
@@ -38,11 +37,16 @@ void UpdateCurvature(const ContactVector& step, const ContactVector& before,
                      const ContactVector& mixed, const ContactVector& behind,
                      ContactMatrix* curvature);
 
-/// Solves for the change dx from x. A component that would pass a bound is set
-/// to the bound, and the others are solved again. `most_force` is in units of
-/// x, `damping` is Levenberg's.
+/// low <= x <= high; a component with equal bounds is held.
+struct ContactBounds {
+  ContactVector low, high;
+};
+
+/// Solves for the change dx from x, which is within the bounds. A component
+/// that would pass a bound is set to the bound, and the others are solved
+/// again. `damping` is Levenberg's.
 ContactVector BoundedChange(const ContactEquations& equations,
-                            const ContactVector& x, double most_force,
+                            const ContactVector& x, const ContactBounds& bounds,
                             double damping);
 
 /// The share of a change of l_c to be taken with a change `by` of f_c. Small

@@ -55,8 +55,8 @@ struct Step {
   double decrease;
 };
 Step StepOf(const ContactEquations& equations, const ContactVector& x,
-            double most_force, double damping) {
-  const ContactVector change = BoundedChange(equations, x, most_force, damping);
+            const ContactBounds& bounds, double damping) {
+  const ContactVector change = BoundedChange(equations, x, bounds, damping);
   ContactVector bent = equations.normal * change;
   if (equations.curvature.size() > 0) bent += equations.curvature * change;
   return {change, -equations.gradient.dot(change) - 0.5 * change.dot(bent)};
@@ -70,8 +70,9 @@ bool IsPositive(const ContactMatrix& matrix) {
 // whether it is the last one. A step that is small only because B is wrong is
 // not; B begins anew then.
 Step NextStep(ContactEquations equations, const ContactVector& x,
-              double most_force, double damping, const FrameFit::Ending& ending,
-              ContactMatrix* curvature, bool* last) {
+              const ContactBounds& bounds, double damping,
+              const FrameFit::Ending& ending, ContactMatrix* curvature,
+              bool* last) {
   const auto is_small = [&](const Step& step) {
     return !(step.decrease > ending.small_decrease) &&
            LargestChange(step.change, x) < ending.small_change;
@@ -81,13 +82,13 @@ Step NextStep(ContactEquations equations, const ContactVector& x,
   if (ending.takes_last_step) {
     equations.curvature.setZero(x.size(), x.size());
   }
-  const Step straight = StepOf(equations, x, most_force, damping);
+  const Step straight = StepOf(equations, x, bounds, damping);
   *last = is_small(straight);
   if (curvature->isZero(0) || !IsPositive(equations.normal + *curvature)) {
     return straight;
   }
   equations.curvature = *curvature;
-  const Step curved = StepOf(equations, x, most_force, damping);
+  const Step curved = StepOf(equations, x, bounds, damping);
   if (*last || !is_small(curved)) return curved;
   curvature->setZero();
   return straight;
@@ -95,12 +96,13 @@ Step NextStep(ContactEquations equations, const ContactVector& x,
 
 // A contact that is as good as on a bound is there.
 ContactVector OnBounds(ContactVector contacts, const ContactVector& unit,
-                       double most_force_N) {
+                       const ContactBounds& bounds) {
   for (int k = 0; k < contacts.size(); k += 2) {
-    if (contacts[k] < kAtEnd * unit[k]) contacts[k] = 0;
-    if (contacts[k] > (1 - kAtEnd) * unit[k]) contacts[k] = unit[k];
-    if (contacts[k + 1] > (1 - kAtEnd) * most_force_N) {
-      contacts[k + 1] = most_force_N;
+    const double near = kAtEnd * unit[k];
+    if (contacts[k] < bounds.low[k] + near) contacts[k] = bounds.low[k];
+    if (contacts[k] > bounds.high[k] - near) contacts[k] = bounds.high[k];
+    if (contacts[k + 1] > (1 - kAtEnd) * bounds.high[k + 1]) {
+      contacts[k + 1] = bounds.high[k + 1];
     }
   }
   return contacts;
@@ -147,7 +149,10 @@ void FrameFit::Descend(const Frame& frame, const Ending& ending, bool* complete,
   Eigen::Map<Eigen::VectorXd> contacts(frame.contacts, unknowns);
   ContactVector best = contacts;
   const ContactVector unit = UnitOf(unknowns);
-  const double most_force = shared_.most_force_N / ForceUnit(model_.finger());
+  const ContactBounds bounds =
+      frame.bounds != nullptr ? *frame.bounds : Bounds(unknowns);
+  const ContactBounds in_units{bounds.low.cwiseQuotient(unit),
+                               bounds.high.cwiseQuotient(unit)};
   ContactMatrix curvature = ContactMatrix::Zero(unknowns, unknowns);
   double damping = 0;
   // The last trial was, and one since the last step had no values.
@@ -155,14 +160,14 @@ void FrameFit::Descend(const Frame& frame, const Ending& ending, bool* complete,
   for (converged_ = unknowns == 0; !converged_;) {
     const ContactVector x = best.cwiseQuotient(unit);
     const ContactEquations equations = EquationsOf(*out, unit);
-    const Step step = NextStep(equations, x, most_force, damping, ending,
+    const Step step = NextStep(equations, x, in_units, damping, ending,
                                &curvature, &converged_);
     if (converged_ && wants_all) break;
     for (int k = 0; k < unknowns; ++k) {
       const bool arc = k % 2 == 0;
       const double share = arc ? ArcShare(x[k + 1], step.change[k + 1]) : 1;
-      contacts[k] = std::clamp(unit[k] * (x[k] + share * step.change[k]), 0.0,
-                               arc ? unit[k] : shared_.most_force_N);
+      contacts[k] = std::clamp(unit[k] * (x[k] + share * step.change[k]),
+                               bounds.low[k], bounds.high[k]);
     }
     if (converged_) {
       out->cost = std::max(0.0, out->cost - step.decrease);
@@ -204,7 +209,7 @@ void FrameFit::Descend(const Frame& frame, const Ending& ending, bool* complete,
   if (rejected && evaluations_ < ending.most_evaluations) {
     Evaluate(frame, false, &tried_);
   }
-  contacts = OnBounds(best, unit, shared_.most_force_N);
+  contacts = OnBounds(best, unit, bounds);
 }
 
 ContactVector FrameFit::UnitOf(int unknowns) const {
@@ -214,6 +219,15 @@ ContactVector FrameFit::UnitOf(int unknowns) const {
     unit[k] = k % 2 == 0 ? finger.front_length_mm : ForceUnit(finger);
   }
   return unit;
+}
+
+ContactBounds FrameFit::Bounds(int unknowns) const {
+  ContactBounds bounds{ContactVector::Zero(unknowns), ContactVector(unknowns)};
+  for (int k = 0; k < unknowns; ++k) {
+    bounds.high[k] =
+        k % 2 == 0 ? model_.finger().front_length_mm : shared_.most_force_N;
+  }
+  return bounds;
 }
 
 bool FrameFit::Evaluate(const Frame& frame, bool all, LinearizedFrame* out) {

@@ -21,7 +21,7 @@ namespace finray {
 /// the parameters that the frames share as they are:
 ///
 ///   min over (l_c, f_c of each contact) of sum_i rho(|r_i|^2) / 2,
-///   0 <= l_c <= l_0,  0 <= f_c <= its bound,
+///   0 <= l_c <= l_0,  0 <= f_c <= its bound, or narrower bounds of a frame,
 ///
 /// by Gauss and Newton with Levenberg's damping. It leaves the frame linearised
 /// by the contacts and by the parameters, from which covariance, dx/dp and what
@@ -50,6 +50,8 @@ class FrameFit {
     const std::vector<FrameBlock>* blocks = nullptr;
     FrameEvaluation* evaluation = nullptr;
     double* contacts = nullptr;  ///< (l_c, f_c) of each
+    /// In mm and N; the contacts are within. Null: those of all frames.
+    const ContactBounds* bounds = nullptr;
   };
 
   using StartState = FingerModel::StartState;
@@ -102,6 +104,8 @@ class FrameFit {
   bool by_surface() const { return model_.by_surface(); }
   double error() const { return model_.error(); }
 
+  /// The bounds of frames without their own, in mm and N.
+  ContactBounds Bounds(int unknowns) const;
   EquilibriumSolver& solver() { return model_.solver(); }
   const EquilibriumSolver& solver() const { return model_.solver(); }
 
