@@ -1,16 +1,26 @@
-// The two forms of equilibrium in a calibration: all frames, their contacts and
-// the parameters in one ceres::Problem, reduced (SolveJointly) and weighted
-// (SolveJointlyWeighted), from the drawn finger. Evenly spread frames of the
-// bundled log. The error is the worst parameter's distance from the reduced
-// form's solution under a tight tolerance, in std of the full log.
+// The forms of a calibration's solve, from the drawn finger. All frames, their
+// contacts and the parameters in one ceres::Problem (DENSE_SCHUR): reduced
+// (SolveJointly) and weighted (SolveJointlyWeighted). And summed (SolveSummed):
+// each frame's contacts are eliminated once in every pass, from where
+// SolveJointly of 210 frames ends, as a calibration begins it. The error is the
+// worst parameter's distance from the reduced form's solution under a tight
+// tolerance, in std of the log.
 //
 //   build/test/tests/calibration_forms_study [FRAMES ...]
+//
+// takes evenly spread frames of the bundled log, by default 15, 30 and 60.
+//
+//   build/test/tests/calibration_forms_study LOG.csv FRAMES ...
+//
+// takes those of another log of that finger, reduced and summed.
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <string>
 
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/solve/summed_solve.h"
@@ -42,12 +52,26 @@ FormRun RunForm(const CalibrationProblem& whole, const std::vector<int>& frames,
   return run;
 }
 
-void RunForms(CalibrationProblem* problem, int count) {
+std::vector<int> Spread(const std::vector<int>& all, int count) {
   std::vector<int> frames;
-  const std::vector<int>& all = problem->candidates();
   for (int i = 0; i < count; ++i) {
     frames.push_back(all[static_cast<std::size_t>(i) * all.size() / count]);
   }
+  return frames;
+}
+
+SolveReport SolveInTwoSteps(const std::vector<int>& frames,
+                            const JointLimits& limits,
+                            CalibrationProblem* problem,
+                            ContactStore* contacts) {
+  constexpr std::size_t kFew = 210;
+  SolveJointly(Spread(frames, static_cast<int>(std::min(kFew, frames.size()))),
+               limits, problem, contacts);
+  return SolveSummed(frames, {}, problem, contacts).report;
+}
+
+void RunForms(CalibrationProblem* problem, int count, bool weighted) {
+  const std::vector<int> frames = Spread(problem->candidates(), count);
   const FormRun exact = RunForm(*problem, frames, kTight, SolveJointly);
   const auto part = problem->Part(frames, 1);
   ContactStore contacts(part.get());
@@ -69,7 +93,11 @@ void RunForms(CalibrationProblem* problem, int count) {
     std::fflush(stdout);
   };
   print("reduced", RunForm(*problem, frames, kLimits, SolveJointly));
-  print("weighted", RunForm(*problem, frames, kLimits, SolveJointlyWeighted));
+  if (weighted) {
+    print("weighted", RunForm(*problem, frames, kLimits, SolveJointlyWeighted));
+  } else {
+    print("summed", RunForm(*problem, frames, kLimits, SolveInTwoSteps));
+  }
 }
 
 }  // namespace
@@ -83,14 +111,17 @@ int main(int argc, char** argv) {
       ReadFinger(FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml");
   const Plan plan =
       ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/force_and_circle.yaml");
-  CalibrationProblem problem(
-      drawn, plan,
-      ReadCalibrationLogs(
-          {FINRAY_SOURCE_DIR "/datasets/simulated_r15/train.csv"}, drawn, plan),
-      {}, 1);
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool other = first.find(".csv") != std::string::npos;
+  const std::string log =
+      other ? first : FINRAY_SOURCE_DIR "/datasets/simulated_r15/train.csv";
+  CalibrationProblem problem(drawn, plan,
+                             ReadCalibrationLogs({log}, drawn, plan), {}, 1);
   std::printf("frames,form,cpu_s,iterations,converged,error_std\n");
   if (argc < 2) {
-    for (const int count : {15, 30, 60}) RunForms(&problem, count);
+    for (const int count : {15, 30, 60}) RunForms(&problem, count, true);
   }
-  for (int i = 1; i < argc; ++i) RunForms(&problem, std::atoi(argv[i]));
+  for (int i = other ? 2 : 1; i < argc; ++i) {
+    RunForms(&problem, std::atoi(argv[i]), !other);
+  }
 }

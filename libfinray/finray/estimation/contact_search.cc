@@ -51,12 +51,6 @@ double ProfiledChi2(double chi2, int dof) {
                   chi2 + scale2 * Valley::kMostChi2);
 }
 
-// Fits of one pair end within this of each other, in chi2.
-constexpr double kSamePair = 0.01;
-// Searches for two contacts profile their solution so often, as a profile may
-// lead to a better one.
-constexpr int kMostProfiles = 3;
-
 bool HasCloseMinima(const Finger& finger) {
   return finger.back_angle_rad < kUpright_rad || finger.ribs.size() >= kCrowded;
 }
@@ -358,15 +352,16 @@ bool ContactSearch::FitEquilibria(const ContactStart& start,
 }
 
 void ContactSearch::ProfileBest() {
-  for (int round = 0; round < kMostProfiles && budget_.MayGoOn(); ++round) {
+  const ContactSolution* profiled = nullptr;
+  while (profiled != &best()) {
+    if (!budget_.MayGoOn()) return;
+    profiled = &best();
     pair_profile_.Profile(best(), budget_.left_of_frame(), &fit_, &profile_);
     budget_.Spend(pair_profile_.iterations(), !pair_profile_.ended());
-    const double before = found_.least_chi2();
     for (int i = 0; i < pair_profile_.count(); ++i) {
       if (!budget_.MayGoOn()) return;
       TryFit(pair_profile_.minimum(i));
     }
-    if (!(found_.least_chi2() < before - kSamePair)) return;
   }
 }
 
