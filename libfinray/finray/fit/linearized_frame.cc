@@ -66,10 +66,19 @@ void LinearizedFrame::Eliminate(const ContactMatrix& inverse) {
   for (Eigen::Index i = 0; i < residuals.size(); ++i) {
     move.now += weights[i] * residuals[i] * scaled_.row(i).transpose();
   }
-  move.by_parameter.noalias() = scaled_.transpose().lazyProduct(by_parameter);
   move.decrease = 0.5 * move.now.dot(Information().lazyProduct(move.now));
+  // Sums of rows: these lie in one piece, and there may be a hundred columns.
+  move.by_parameter.setZero(scaled_.cols(), by_parameter.cols());
   reduced = by_parameter;
-  reduced.noalias() += by_contact.lazyProduct(move.by_parameter);
+  for (Eigen::Index k = 0; k < scaled_.cols(); ++k) {
+    auto by_k = move.by_parameter.row(k);
+    for (Eigen::Index i = 0; i < by_parameter.rows(); ++i) {
+      by_k += scaled_(i, k) * by_parameter.row(i);
+    }
+    for (Eigen::Index i = 0; i < by_parameter.rows(); ++i) {
+      reduced.row(i) += by_contact(i, k) * by_k;
+    }
+  }
 }
 
 }  // namespace finray
