@@ -53,6 +53,23 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
 }
 
 // A log that is resumed after its end gets the warning that it had.
+// From a chi2 of 70 on, one contact on four gauges may be two.
+TEST(EstimationSummaryTest, WhatMayBeTwoContactsIsNotUnexplained) {
+  FrameEstimate estimate;
+  estimate.status = FrameStatus::kUnobservable;
+  estimate.contacts = 1;
+  estimate.dof = 2;
+  estimate.may_be_two = true;
+  Measurements readings;
+  readings.gauges_V = {0, 0, 0, 0};
+  EstimationSummary summary;
+  for (const double chi2 : {40.0, 69.0, 71.0, 500.0}) {
+    estimate.chi2 = chi2;
+    summary.Add(estimate, 0, readings, PaperFinger());
+  }
+  EXPECT_EQ(summary.unexplained, 2u);
+}
+
 TEST(EstimationSummaryTest, ReadsBackTheWalk) {
   EstimationSummary summary;
   summary.walk.told_V_per_sqrt_s = 1e-3;

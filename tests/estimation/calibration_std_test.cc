@@ -168,6 +168,35 @@ TEST(CalibrationStdTest, FrictionOfASceneIsOneMoreParameter) {
   }
 }
 
+// A row whose friction the object's motion tells has the std of a scene with
+// that friction.
+TEST(CalibrationStdTest, ASlidingRowHasTheStdOfItsFriction) {
+  Finger finger = PaperFinger();
+  finger.calibration = TypicalCovariance(finger);
+  EquilibriumSolver solver(finger, {});
+  ASSERT_TRUE(solver.Solve({{70, 4, 0.1}}));
+  Measurements row = CleanReadings(solver);
+  Scene scene;
+  scene.contacts = 1;
+  scene.friction_coefficient = 0.1;
+  const FrameEstimate expected = FrameEstimator(finger, scene).Estimate(row);
+  row.friction = 0.1;
+  scene.friction_coefficient = 0.3;
+  FrameEstimator estimator(finger, scene);
+  const FrameEstimate found = estimator.Estimate(row);
+  row.friction = 0.3;
+  const FrameEstimate other = estimator.Estimate(row);
+  for (int k = 0; k < 2; ++k) {
+    const double std = std::sqrt(expected.calibration_covariance(k, k));
+    EXPECT_NEAR(std::sqrt(found.calibration_covariance(k, k)), std, 1e-3 * std);
+  }
+  EXPECT_NEAR(found.force_std_N, expected.force_std_N,
+              1e-3 * expected.force_std_N);
+  // The friction matters.
+  EXPECT_GT(std::abs(other.force_std_N - expected.force_std_N),
+            1e-2 * expected.force_std_N);
+}
+
 // Noise and one friction a log: the intervals hold as often as they say.
 TEST(CalibrationStdTest, IntervalsHoldWhereFrictionIsUncertain) {
   const Finger finger = PaperFinger();

@@ -38,6 +38,27 @@ TEST(FollowedPairsTest, SayWhereThereAreOthers) {
   EXPECT_EQ(ComparePairs(four, Scene(), log).ok, 0);
 }
 
+// Live frames go on from pair to pair too.
+TEST(FollowedPairsTest, LiveFramesAreWhatASearchFinds) {
+  const Finger eight = WithLittleNoise(ReadFinger(kEightGauges));
+  const PairLog log = SimulatePairs(eight, 320, WanderingPair);
+  FrameEstimator live(eight, SceneOfTwo()), alone(eight, SceneOfTwo());
+  int iterations = 0, searched = 0;
+  for (const Measurements& row : log.rows) {
+    const FrameEstimate one = live.Next(row), other = alone.Estimate(row);
+    ASSERT_EQ(one.status, other.status);
+    ASSERT_EQ(one.contacts, 2);
+    iterations += one.iterations;
+    searched += other.iterations;
+    for (int c = 0; c < 2; ++c) {
+      const ContactEstimate &a = one.contact[c], &b = other.contact[c];
+      EXPECT_NEAR(a.arc_mm, b.arc_mm, kSame_std * b.arc_std_mm);
+      EXPECT_NEAR(a.normal_N, b.normal_N, kSame_std * b.normal_std_N);
+    }
+  }
+  EXPECT_LT(iterations, 0.8 * searched);
+}
+
 // Contacts that jump, leave and come are searched.
 TEST(FollowedPairsTest, ContactsJump) {
   const Finger eight = WithLittleNoise(ReadFinger(kEightGauges));

@@ -44,7 +44,8 @@ struct EstimateOptions {
 struct EstimationSummary {
   std::size_t frames = 0, ok = 0, no_contact = 0, unobservable = 0,
               not_converged = 0, bad_input = 0;
-  /// Solved frames that the finger and its noise do not explain.
+  /// Solved frames that the finger and its noise do not explain, but for those
+  /// that a second contact on four gauges may explain.
   std::size_t unexplained = 0;
   /// Frames that were compared with a force of the log, and the errors; NaN
   /// if there is none.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "finray/estimation/frame_estimator.h"
 #include "finray/finger/possible_reading.h"
 #include "finray/io/number_text.h"
 
@@ -96,10 +97,11 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
       estimate.status == FrameStatus::kBadInput) {
     return;
   }
-  // Two contacts may explain what they make unobservable.
-  unexplained += estimate.IsUnexplained() &&
-                 !(estimate.may_be_two &&
-                   estimate.status == FrameStatus::kUnobservable);
+  // Two contacts may explain the frames that they make unobservable.
+  unexplained +=
+      estimate.IsUnexplained() &&
+      !(estimate.may_be_two &&
+        estimate.explained_chi2() >= FrameEstimator::kUntoldSignificance);
   // The contacts of unobservable frames are unreliable, so they are not
   // compared.
   if (estimate.status == FrameStatus::kUnobservable) return;

@@ -28,7 +28,8 @@ struct EstimationSummary {
   std::size_t bad_rows = 0;
   std::array<std::size_t, 5> by_status{};  ///< indexed by FrameStatus
   /// Solved frames that neither the described finger nor its noise explains
-  /// (FrameEstimate::IsUnexplained).
+  /// (FrameEstimate::IsUnexplained), but for those that two contacts may
+  /// explain (FrameEstimator::kUntoldSignificance).
   std::size_t unexplained = 0;
   /// Frames whose search Scene::search_iteration_limit has ended.
   std::size_t search_ended = 0;

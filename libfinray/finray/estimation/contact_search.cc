@@ -24,9 +24,9 @@ constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12;
 // (doubted_pairs_study).
 constexpr int kDoubtedIterations = 64;
 // Contacts that need more iterations from frame to frame have jumped.
-constexpr int kFollowIterations = 8;
-// Pairs whose chi2 is farther above the best one are not followed.
-constexpr double kFollowed = 2 * ContactSearch::kSuspect;
+constexpr int kContinueIterations = 8;
+// Pairs whose chi2 is farther above the best one do not go on.
+constexpr double kContinued = 2 * ContactSearch::kSuspect;
 // The table cannot rank starts where its values are wrong by more std than
 // this.
 constexpr double kCoarse = 1;
@@ -224,22 +224,28 @@ bool ContactSearch::Continue(double least_force_N) {
   // A contact on a bound, or one that carries nothing, may be anywhere else.
   const auto is_sure = [&](const FoundSolutions& found) {
     return !found.empty() && !found.BestOnBound() &&
-           found.best().LeastForce_N() >= least_force_N;
+           found.best().LesserForce_N() >= least_force_N;
   };
   if (problem_ || !is_sure(before_)) return false;
-  ContactStart start;
-  start.count = 2;
-  for (const ContactSolution& pair : before_) {
-    if (pair.chi2 > before_.least_chi2() + kFollowed) continue;
-    if (!budget_.MayGoOn()) break;
+  const auto fits = [&](const ContactSolution& pair) {
+    ContactStart start;
+    start.count = 2;
     start.contacts = pair.contacts;
     start.state = &pair.state;
-    if (FitEquilibria(start, std::min(budget_.left(), kFollowIterations))) {
-      found_.Keep();
-    } else if (&pair == &before_.best()) {
-      found_.Clear();
+    if (!budget_.MayGoOn() ||
+        !FitEquilibria(start, std::min(budget_.left(), kContinueIterations))) {
       return false;
     }
+    found_.Keep();
+    return true;
+  };
+  if (!fits(before_.best())) return false;
+  for (const ContactSolution& pair : before_) {
+    if (&pair == &before_.best() ||
+        pair.chi2 > before_.least_chi2() + kContinued) {
+      continue;
+    }
+    fits(pair);
   }
   if (is_sure(found_) &&
       found_.least_chi2() < before_.least_chi2() + kSuspect) {

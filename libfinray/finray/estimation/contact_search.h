@@ -1,7 +1,6 @@
 #ifndef FINRAY_ESTIMATION_CONTACT_SEARCH_H_
 #define FINRAY_ESTIMATION_CONTACT_SEARCH_H_
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,11 +26,12 @@ enum class FrameMethod {
 /// Returns "fast", "ceres reduced" or "ceres weighted".
 const char* FrameMethodName(FrameMethod method);
 
-/// Finds the contacts that explain a frame, without a guess. It minimises chi2
-/// from the best starts of a table, and from all further starts that might lead
-/// to a rival. A rival is another solution that explains the frame about as
-/// well. RowFit fits one contact on a surface. Where that does not serve, and
-/// for two contacts, it solves the equilibria.
+/// Finds the contacts that explain a frame, without a guess by the caller. It
+/// minimises chi2 from the best starts of a table, and from all further starts
+/// that might lead to a rival. A rival is another solution that explains the
+/// frame about as well. Two contacts start from the pairs of the frame before
+/// where there are some (warm start). RowFit fits one contact on a surface.
+/// Where that does not serve, and for two contacts, it solves the equilibria.
 class ContactSearch {
  public:
   static constexpr double kWithinNoise = FoundSolutions::kWithinNoise;
@@ -60,8 +60,9 @@ class ContactSearch {
   /// The next frame does not follow the last one.
   void Forget();
   /// Searches with one or two contacts. Returns false if no start converged. A
-  /// contact with less than `least_force_N` is none. If IsDoubted, the first
-  /// pair that explains the frame ends the search, or a number of iterations.
+  /// contact with less than `least_force_N` is none. If IsDoubted, the table's
+  /// starts end with the first pair that explains the frame, and all with a
+  /// number of iterations.
   bool Search(int contacts, const PackedReadings& packed,
               double least_force_N = 0);
   /// Returns true if the gauges of a frame do not tell whether there are two
@@ -69,12 +70,13 @@ class ContactSearch {
   /// pair is found is then unobservable.
   bool IsDoubted(const PackedReadings& packed) const;
 
-  /// How the last search of a frame began.
+  /// How the last search of a frame went.
   enum class Course {
     kSearched,   ///< From all starts.
-    kContinued,  ///< From the pairs of the frame before, and one start more.
-    /// So too, and that one has led to another pair, which noise makes a rival
-    /// in some frames: also of the frames before, back to a searched one.
+    kContinued,  ///< From the pairs of the frame before.
+    /// As kContinued, and a further fit has led to a pair that was not among
+    /// them, the best one or within kSuspect of it. The frames since the last
+    /// kSearched were not tried with it.
     kSurprised,
   };
   Course course() const { return course_; }
@@ -91,8 +93,8 @@ class ContactSearch {
   const ContactSolution* rival() const { return found_.rival(); }
   /// The best contact at each place of the table (GaugeTable::Profile) that may
   /// be a rival or belong to a valley; the others have an infinite chi2 or one
-  /// that is too large. Of two contacts, the places of ProfilePair, and none if
-  /// IsDoubted. Empty without gauges.
+  /// that is too large. Of two contacts, the places of PairProfile, and none if
+  /// IsDoubted. Of one contact, empty without gauges.
   const std::vector<ContactStart>& profile() const { return profile_; }
   /// Number of iterations of all fits of the last search.
   int iterations() const { return budget_.spent(); }

@@ -34,7 +34,7 @@ struct ContactSolution {
   LadderState state;
 
   /// The lesser force of two.
-  double LeastForce_N() const {
+  double LesserForce_N() const {
     return std::min(contacts[0].normal_N, contacts[count - 1].normal_N);
   }
 };

@@ -55,14 +55,19 @@ void FoundSolutions::Sort(ContactSolution* solution) const {
   }
 }
 
-bool FoundSolutions::Keep() {
-  ContactSolution& solution = next();
-  Sort(&solution);
-  for (int i = 0; i < count_; ++i) {
-    if (!IsSame(solutions_[i], solution)) continue;
-    if (solution.chi2 < solutions_[i].chi2) std::swap(solutions_[i], solution);
-    return false;
+void FoundSolutions::Keep() {
+  Sort(&next());
+  int at = 0;
+  while (at < count_ && !IsSame(solutions_[at], next())) ++at;
+  if (at == count_) {
+    ++count_;
+  } else if (next().chi2 < solutions_[at].chi2) {
+    std::swap(solutions_[at], next());
   }
+  if (count_ == 1 || IsBetter(solutions_[at])) best_ = at;
+}
+
+bool FoundSolutions::IsBetter(const ContactSolution& solution) const {
   // A force on its bound is not credible and wins only where nothing else
   // explains the frame.
   const auto chi2 = [this](const ContactSolution& of) {
@@ -71,12 +76,10 @@ bool FoundSolutions::Keep() {
   // With as many unknowns as readings all leave nothing but rounding. Then the
   // lighter contact is likelier: a place explains the readings over a range
   // that is proportional to 1 / f_c (valley.h).
-  const double more = empty() ? 0 : chi2(solution) - chi2(best());
+  const double more = chi2(solution) - chi2(best());
   const bool lighter =
-      solution.contacts[0].normal_N < solutions_[best_].contacts[0].normal_N;
-  if (empty() || more < -kTie || (more < kTie && lighter)) best_ = count_;
-  ++count_;
-  return true;
+      solution.contacts[0].normal_N < best().contacts[0].normal_N;
+  return more < -kTie || (more < kTie && lighter);
 }
 
 double FoundSolutions::least_chi2() const {

@@ -26,8 +26,8 @@ class FoundSolutions {
   /// Where the next solution is filled in before Keep. Not if full().
   ContactSolution& next() { return solutions_[count_]; }
   /// Keeps the next solution, with its contacts sorted from base to tip. Of two
-  /// fits of one minimum the better one stays. Returns true if it is a new one.
-  bool Keep();
+  /// fits of one minimum the better one stays.
+  void Keep();
 
   /// A solution with a force on its bound is the best one only if nothing else
   /// explains the frame.
@@ -35,7 +35,7 @@ class FoundSolutions {
   /// All, in the order in which Keep has stored them.
   const ContactSolution* begin() const { return solutions_.data(); }
   const ContactSolution* end() const { return begin() + count_; }
-  /// Its chi2; infinite if there is none.
+  /// The chi2 of best(); infinite if there is none.
   double least_chi2() const;
   /// The best solution that is distinct from best() beyond its uncertainty and
   /// explains the frame within kWithinNoise as well; null if there is none.
@@ -58,6 +58,8 @@ class FoundSolutions {
 
  private:
   void Sort(ContactSolution* solution) const;
+  // Says whether a solution is to be best() instead of that one.
+  bool IsBetter(const ContactSolution& solution) const;
   // Says whether two fits have led to one minimum, which `one` has found.
   bool IsSame(const ContactSolution& one, const ContactSolution& other) const;
   bool AnyOnBound(const ContactSolution& solution) const;

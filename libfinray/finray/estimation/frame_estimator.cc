@@ -214,8 +214,7 @@ LogPrior FrameEstimator::SmoothBlock(const Measurements* readings,
                                      FrameEstimate* estimates) {
   std::vector<char> sure(count);
   for (std::size_t i = 0; i < count; ++i) {
-    sure[i] =
-        StatusOf(estimates[i], setup_.finger, search_) == FrameStatus::kOk;
+    sure[i] = IsSure(estimates[i], packed_[i]);
   }
   const LogPrior next =
       Smooth(setup_.finger, setup_.scene, setup_.discretization, readings,
@@ -285,7 +284,7 @@ void FrameEstimator::Automatic(const Measurements& readings,
   const int before = search_.iterations();
   if (!search_.Search(2, packed, LeastForce_N(setup_.finger))) return;
   const ContactSolution& two = search_.best();
-  if (two.LeastForce_N() < LeastForce_N(setup_.finger)) return;
+  if (two.LesserForce_N() < LeastForce_N(setup_.finger)) return;
   if (without - two.chi2 < significance) return;
   // Written so that a difference of infinities is none.
   if (one && !(model_without - ModelChi2(readings, packed) >= significance)) {
@@ -312,7 +311,7 @@ void FrameEstimator::WithContacts(const Measurements& readings,
     return Unsolved(FrameStatus::kNotConverged, estimate);
   }
   const ContactSolution& best = search_.best();
-  if (best.LeastForce_N() < LeastForce_N(setup_.finger)) {
+  if (best.LesserForce_N() < LeastForce_N(setup_.finger)) {
     return WithContacts(readings, packed, contacts - 1, estimate);
   }
   Found(readings, packed, estimate);

@@ -166,6 +166,9 @@ class FrameEstimator {
   // contacts, and sets its status to ok or unobservable.
   void Judge(const Measurements& readings, const PackedReadings& packed,
              FrameEstimate* estimate);
+  // Says whether a solved frame may be ok with its present std.
+  bool IsSure(const FrameEstimate& estimate,
+              const PackedReadings& packed) const;
 
   // What the estimator is made of.
   struct Setup {

@@ -59,15 +59,21 @@ void FrameEstimator::Judge(const Measurements& readings,
     AddCovariance(estimate->calibration_covariance, estimate);
   }
   estimate->SetIntervals(setup_.finger.front_length_mm);
-  estimate->status = StatusOf(*estimate, setup_.finger, search_);
-  // Two contacts explain any reading of as many gauges as unknowns, so that
-  // nothing there says whether there are two.
-  if (!search_.IsDoubted(packed)) return;
-  const double chi2 = estimate->explained_chi2();
-  if (estimate->contacts == 2 || chi2 >= kUntoldSignificance) {
-    estimate->status = FrameStatus::kUnobservable;
-  }
-  estimate->may_be_two = estimate->contacts == 1 && chi2 >= kSecondSignificance;
+  estimate->may_be_two = estimate->contacts == 1 && search_.IsDoubted(packed) &&
+                         estimate->explained_chi2() >= kSecondSignificance;
+  estimate->status =
+      IsSure(*estimate, packed) ? FrameStatus::kOk : FrameStatus::kUnobservable;
+}
+
+// Two contacts explain any reading of as many gauges as unknowns, so that
+// nothing there says whether there are two.
+bool FrameEstimator::IsSure(const FrameEstimate& estimate,
+                            const PackedReadings& packed) const {
+  const bool untold = search_.IsDoubted(packed) &&
+                      (estimate.contacts == 2 ||
+                       estimate.explained_chi2() >= kUntoldSignificance);
+  return !untold &&
+         StatusOf(estimate, setup_.finger, search_) == FrameStatus::kOk;
 }
 
 void FrameEstimator::AddCovariance(const ContactMatrix& covariance,

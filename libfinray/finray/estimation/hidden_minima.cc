@@ -62,20 +62,19 @@ void ContactSearch::SearchRows(bool close) {
 
 // Two minima may lie between the same two rows.
 void ContactSearch::SearchBeside() {
-  // found_.Keep() writes behind this one.
-  const ContactSolution& from = found_.best();
+  // The best one may be another one after the first fit.
+  const PointContact from = found_.best().contacts[0];
+  const ContactMatrix a = found_.best().information;
   for (const double rows : {-1.0, -0.5, 0.5, 1.0}) {
     if (found_.full() || !budget_.MayGoOn()) return;
     ContactStart start;
     start.count = 1;
-    start.contacts[0] = from.contacts[0];
+    start.contacts[0] = from;
     const double apart = rows * table().row_spacing_mm();
-    const ContactMatrix& a = from.information;
-    start.contacts[0].arc_mm = std::clamp(from.contacts[0].arc_mm + apart, 0.0,
-                                          tables_->finger().front_length_mm);
-    start.contacts[0].normal_N =
-        std::clamp(from.contacts[0].normal_N - a(0, 1) / a(1, 1) * apart, 0.0,
-                   most_force_N());
+    start.contacts[0].arc_mm =
+        std::clamp(from.arc_mm + apart, 0.0, tables_->finger().front_length_mm);
+    start.contacts[0].normal_N = std::clamp(
+        from.normal_N - a(0, 1) / a(1, 1) * apart, 0.0, most_force_N());
     start.state = &table().StateNear(start.contacts[0].arc_mm,
                                      start.contacts[0].normal_N);
     TryFit(start);

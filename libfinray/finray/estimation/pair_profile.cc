@@ -26,8 +26,8 @@ constexpr double kProfiledBay = 0.12;
 // A place is as good as fitted when its next change would lower chi2 by less.
 constexpr double kPlaceFitted = 0.1;
 constexpr int kMostRefits = 4;
-// Forces change by this factor at most from place to place.
-constexpr double kMostFactor = 3;
+// The first guess at a place changes forces by this factor at most.
+constexpr double kMostFactor = 3, kNoForce_N = 1e-9;
 // A minimum is suspected to have another one beside it where chi2 rises by less
 // than this share of what its curvature expects, farther away than kBeside
 // expects and by less than kBesideChi2: it may fall between two places.
@@ -104,6 +104,7 @@ class PairProfile::Walk {
       const ContactStart last = place;
       if (!Refit(contact, begin + way * i / steps, &place)) break;
       places->push_back(place);
+      places->back().state = nullptr;
       const bool falls = place.chi2 < before;
       if (falling && !falls) Add(last, lowest_);
       const double apart_mm = place.contacts[contact].arc_mm - begin;
@@ -139,7 +140,8 @@ class PairProfile::Walk {
     for (int k = 0; k < kPairUnknowns; ++k) {
       // Keeps what the gauges do not determine where it is.
       const double size =
-          k % 2 == 0 ? 0.2 * length_mm_ : 2 * place.contacts[k / 2].normal_N;
+          k % 2 == 0 ? 0.2 * length_mm_
+                     : std::max(kNoForce_N, 2 * place.contacts[k / 2].normal_N);
       system(k, k) += 1 / (size * size);
     }
     system.row(held).setZero();

@@ -23,7 +23,7 @@ class RowFrames {
 
   /// Sets the friction of the contacts; the scene's at first.
   void set_friction(double friction);
-  double friction() const { return friction_; }
+  double friction() const { return row_friction_.At(friction_); }
 
   /// Returns the frame of a row with these contacts. It is good until the next
   /// call with as many.

@@ -52,7 +52,7 @@ void ExpectSame(const FrameEstimate& one, const FrameEstimate& other, int i) {
 
 // Readings of a finger with other gains and beams leave a chi2 that noise does
 // not reach.
-TEST(FollowedFramesTest, FramesThatNothingExplainsAgreeWithSearches) {
+TEST(FrameEstimatorSequenceTest, FramesThatNothingExplainsAgreeWithSearches) {
   Finger finger = PaperFinger();
   finger.front_stiffness_N_mm2 *= 1.03;
   double sign = 1;
@@ -80,7 +80,7 @@ TEST(FollowedFramesTest, FramesThatNothingExplainsAgreeWithSearches) {
   EXPECT_GT(unexplained, 100);
 }
 
-TEST(FollowedFramesTest, BlocksAndLiveFramesAgreeWithSearches) {
+TEST(FrameEstimatorSequenceTest, BlocksAndLiveFramesAgreeWithSearches) {
   for (const double noise : {1e-4, 3e-4}) {
     Finger finger = PaperFinger();
     for (Gauge& gauge : finger.gauges) gauge.noise_V = noise;
