@@ -88,8 +88,8 @@ struct FrameEstimate {
   bool search_ended = false;
   /// `contacts: auto` has found one contact, which leaves so much chi2 that a
   /// second one would be looked for, but for too few readings to tell whether
-  /// it is there (FrameEstimator::kSecondSignificance). From kUntoldSignificance
-  /// on the frame is unobservable.
+  /// it is there (FrameEstimator::kSecondSignificance). From
+  /// kUntoldSignificance on the frame is unobservable.
   bool may_be_two = false;
   /// A distinct solution with as many contacts that explains the frame within
   /// its noise, and its chi2. NaN if there is none.
