@@ -117,8 +117,7 @@ bool ContactSearch::OnSurface() const {
 bool ContactSearch::IsEnough(const PackedReadings& packed,
                              double least_force_N) const {
   return !found_.empty() && IsDoubted(packed) && IsExplained(best().chi2, 0) &&
-         std::min(best().contacts[0].normal_N, best().contacts[1].normal_N) >=
-             least_force_N;
+         best().LesserForce_N() >= least_force_N;
 }
 
 bool ContactSearch::IsExplained(double chi2, int dof) {

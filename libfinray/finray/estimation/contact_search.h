@@ -74,9 +74,9 @@ class ContactSearch {
   enum class Course {
     kSearched,   ///< From all starts.
     kContinued,  ///< From the pairs of the frame before.
-    /// As kContinued, and a further fit has led to a pair that was not among
-    /// them, the best one or within kSuspect of it. The frames since the last
-    /// kSearched were not tried with it.
+    /// From the pairs of the frame before, and then a fit found a new pair. It
+    /// is the best pair, or its chi2 is within kSuspect of the best one. The
+    /// frames since the last kSearched were not tried with it.
     kSurprised,
   };
   Course course() const { return course_; }

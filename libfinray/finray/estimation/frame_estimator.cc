@@ -260,7 +260,6 @@ void FrameEstimator::Automatic(const Measurements& readings,
                                const PackedReadings& packed,
                                FrameEstimate* estimate) {
   if (packed.free_chi2 < kSignificance) return Free(packed, estimate);
-  Unsolved(FrameStatus::kNotConverged, estimate);
   // A second contact must lower chi2 by so much.
   const double significance =
       search_.IsDoubted(packed) ? kDoubtedSignificance : kSecondSignificance;
@@ -270,6 +269,8 @@ void FrameEstimator::Automatic(const Measurements& readings,
       return Free(packed, estimate);
     }
     Found(readings, packed, estimate);
+  } else {
+    Unsolved(FrameStatus::kNotConverged, estimate);
   }
   // If no search with one contact converges, two contacts must do what the
   // first and the second have to do.

@@ -170,14 +170,14 @@ class FrameEstimator {
   bool IsSure(const FrameEstimate& estimate,
               const PackedReadings& packed) const;
 
-  // What the estimator is made of.
+  // The arguments of the constructor.
   struct Setup {
     Finger finger;
     Scene scene;  // without gauge_offset_walk
     Discretization discretization;
     FrameMethod method;
   };
-  // Between frames that come one by one.
+  // The state of Next() between two calls.
   struct Live {
     std::optional<LiveOffsets> offsets;  // where they wander
     LogPrior smoothed;                   // if the scene has smoothing

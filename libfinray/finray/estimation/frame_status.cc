@@ -104,7 +104,8 @@ FrameStatus FrameEstimator::StatusOf(const FrameEstimate& estimate,
       determined &= is_sure(contact.arc_std_mm, contact.normal_std_N);
       continue;
     }
-    // Those of the minimum, and those of its valley.
+    // The limits hold for the std of the minimum and, kPairValley times as
+    // wide, for the std of its valley.
     determined &=
         is_sure(LocalStd(estimate, 2 * c), LocalStd(estimate, 2 * c + 1)) &&
         is_sure(contact.arc_std_mm / kPairValley,

@@ -43,7 +43,7 @@ class IterationBudget {
   int left() const {
     return std::min(left_of_frame(), search_limit_ - search_);
   }
-  /// Those of the search.
+  /// Returns the number of iterations of the present search.
   int spent() const { return search_; }
   /// The limit of the frame has ended a search with starts left to try.
   bool ended() const { return ended_; }

@@ -28,7 +28,7 @@ class PairProfile {
   void Profile(const ContactSolution& solution, int most_iterations,
                RowFit* fit, std::vector<ContactStart>* places);
 
-  // Of the last profile:
+  // Results of the last call of Profile():
 
   /// Beginnings of fits: places where p has a minimum of its own.
   int count() const { return count_; }

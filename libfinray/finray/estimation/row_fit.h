@@ -64,8 +64,9 @@ class RowFit {
   /// chi2. Returns false if there is no equilibrium near the start.
   bool FitWithin(const ContactBounds& bounds, double small_decrease,
                  int most_evaluations, ContactStart* start);
-  // Of the last FitWithin, at its last evaluation, and whether a further step
-  // would have lowered chi2 by less:
+  // Results of the last call of FitWithin(). Information and state belong to
+  // the last evaluation.
+  /// Returns true if the fit ended before most_evaluations.
   bool converged() const { return on_equilibria_.converged(); }
   ContactMatrix information() const { return at_.Information(); }
   const LadderState& state() const { return evaluation_->state(); }
